@@ -1,0 +1,5 @@
+#include "analysis/version.hpp"
+
+namespace isostat {
+std::string_view version() { return ISOSTAT_VERSION; }
+}  // namespace isostat

@@ -1,0 +1,6 @@
+#pragma once
+#include <string_view>
+
+namespace isostat {
+std::string_view version();  // of this build, as in CMakeLists.txt
+}

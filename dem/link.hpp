@@ -1,0 +1,59 @@
+// Geometry of one link, shared by the force kernels and the rigidity matrix: frame, lever arms, and the row of G that
+// takes body velocities to link velocities (Gilabert 2007, Eqs. A1-A3). Real is double or a SIMD vector of doubles.
+//
+// Link velocities (the power of a link force is force * velocity, so body forces = G^T (N, T, M)):
+//   normal     n . (v_j - v_i)                                 conjugate to N
+//   tangential t . (v_j - v_i) - l_i w_i - l_j w_j             conjugate to T
+//   rolling    w_j - w_i                                       conjugate to M
+// v includes the affine motion of the cell; with the strain rate e_a = -Ldot_a / L_a (compression positive) the affine
+// part of v_j - v_i is -e_a r_ij,a.
+#pragma once
+#include <cmath>
+
+namespace isostat {
+
+template <class Real>
+struct LinkFrame {
+  Real nx, ny;    // unit normal from i to j; the tangent is t = z x n = (-ny, nx)
+  Real distance;  // [a] |r_ij|
+  Real gap;       // [a] h = |r_ij| - R_i - R_j
+  Real lever_i, lever_j;  // [a] l_i = |r_ij| R_i / (R_i + R_j): contact point to centre. Not R_i: with the radii a
+                          // rigid rotation of overlapping disks would not be a null vector of G.
+};
+
+// (dx, dy) = r_ij including the image shift.
+template <class Real>
+inline LinkFrame<Real> link_frame(Real dx, Real dy, Real radius_i, Real radius_j) {
+  using std::sqrt;
+  const Real sum = radius_i + radius_j;
+  const Real distance = sqrt(dx * dx + dy * dy);
+  const Real q = Real(1.0) / (distance * sum);  // one division serves 1/distance and 1/sum
+  const Real inverse = q * sum;
+  const Real scale = q * distance * distance;
+  return {dx * inverse, dy * inverse, distance, distance - sum, scale * radius_i, scale * radius_j};
+}
+
+template <class Real>
+struct LinkVelocity {
+  Real normal, tangential, rolling;
+};
+
+template <class Real>
+inline LinkVelocity<Real> link_velocity(const LinkFrame<Real>& f, Real dvx, Real dvy, Real spin_i, Real spin_j) {
+  return {f.nx * dvx + f.ny * dvy, f.nx * dvy - f.ny * dvx - (f.lever_i * spin_i + f.lever_j * spin_j), spin_j - spin_i};
+}
+
+// The adjoint: force on j (opposite on i) and the two moments from (N, T, M).
+template <class Real>
+struct LinkLoad {
+  Real fx, fy;              // force on j
+  Real moment_i, moment_j;  // about the centres
+};
+
+template <class Real>
+inline LinkLoad<Real> link_load(const LinkFrame<Real>& f, Real normal, Real tangential, Real moment) {
+  return {normal * f.nx - tangential * f.ny, normal * f.ny + tangential * f.nx, -(tangential * f.lever_i) - moment,
+          moment - tangential * f.lever_j};
+}
+
+}  // namespace isostat

@@ -1,0 +1,118 @@
+// What the user asks for: a scene of materials, cell, numerics and stages. Plain data with defaults; every field has a
+// unit and a rule in dem/scene_keys.cpp, which is also where the documentation of the scene keys comes from.
+//
+// Reduced units: a, m, F0; without cohesion the unit of force is a P, so a cohesionless scene has pressure = 1.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace isostat {
+
+// [grains]: N disks, diameters uniform in [diameter_min, diameter_max], in random non-overlapping positions
+// (the I-state of Gilabert 2007, Sec. III.A).
+struct GrainsScene {
+  int count = 1400;
+  double solid_fraction = 0.36;  // [-] Phi_I, with sum of pi d^2 / 4 over the cell's area
+  double diameter_min = 0.5;     // [a]
+  double diameter_max = 1.0;     // [a]
+  std::string file;              // a state or .net file to start from instead; empty: random
+};
+
+// [law]: the interaction law, Gilabert 2007, Eqs. 4-10 and Table I.
+struct LawScene {
+  double normal_stiffness = 1e5;                 // K_N [F0/a]
+  std::optional<double> tangential_stiffness;    // K_T [F0/a], default K_N
+  double damping = 0.8;                          // zeta [-], fraction of the critical damping of the pair (Eq. 6)
+  double friction = 0.5;                         // mu [-]
+  bool rolling = true;                           // rolling resistance on
+  std::optional<double> rolling_friction;        // mu_r [a], default 0.01 mu a
+  std::optional<double> rolling_stiffness;       // K_r [F0 a], default 1e-4 a^2 K_N
+  double attraction = 1.0;                       // F0 [F0]; 0: no cohesion
+  double attraction_range = 1e-3;                // D0 [a]
+};
+
+// [step]: dt = fraction * sqrt(m_max / K_N).
+struct StepScene {
+  double fraction = 0.06;  // c [-]
+};
+
+// [cell]: periodic cell and its barostat (Eq. 3).
+struct CellScene {
+  double inertia = 0.3;      // M in units of the sum of grain masses (PHYSICS.md: cell inertia)
+  double aspect = 1.0;       // [-] L1 / L2 of the initial cell
+  bool rate_coupling = false;  // add -(Ldot/L) v to the peculiar acceleration
+};
+
+// [equilibrium]: Sec. II.D, in units of F1 = max(F0, a P).
+struct EquilibriumScene {
+  double force = 1e-4;           // [F1] net force on a grain; also [F1 a] net moment
+  double pressure = 1e-4;        // [F1/a] imposed minus measured stress, each free direction
+  double kinetic_energy = 5e-8;  // [F1 a] per grain
+};
+
+enum class Finish { none, drag };
+
+// [finish]: what ends a stage faster than the bare law does; "none" is the paper.
+struct FinishScene {
+  Finish method = Finish::none;
+  double drag = 0.5;           // [1/T0] rate of the global drag -drag * m * v
+  double quiet_time = 100.0;   // [T0] switch on when the set of contacts has not changed for so long,
+                               // or as soon as the kinetic criterion is met
+};
+
+// [[stage]]: one step of the history of a sample.
+struct StageScene {
+  std::optional<double> pressure;    // P* [F0/a] stress applied in both directions; absent: fixed cell
+  double velocity = 0.0;             // V0 [V* = sqrt(F0 D0 / m)] rms velocity drawn at the start; 0: keep
+  double max_strain_rate = 0.05;     // [1/T0] cap of the cell's strain rate; 0: no cap
+  std::string until = "equilibrium";  // or "time"
+  double time = 0.0;                 // [T0] length of the stage with until = "time"
+  double max_time = 20000.0;         // [T0] give up (exit code 3) after so long
+};
+
+// [output]: observers; they read, they never touch the run.
+struct OutputScene {
+  std::string series;                 // CSV file of the time series; empty: none
+  double series_interval = 1.0;       // [T0]
+  bool energies = false;              // energy ledger in the series (costs a tally kernel)
+  std::vector<double> snapshot_times;            // [T0]
+  std::vector<double> snapshot_solid_fractions;  // [-]
+};
+
+// [units]: maps the reduced run to SI in reports; absent: reduced.
+struct UnitsScene {
+  double length = 1.0;   // a [m]
+  double density = 1.0;  // mass per area of the disks [kg/m^2] (2D)
+  double force = 1.0;    // F0 [N]
+};
+
+struct Scene {
+  std::uint64_t seed = 1;
+  GrainsScene grains;
+  LawScene law;
+  StepScene step;
+  CellScene cell;
+  EquilibriumScene equilibrium;
+  FinishScene finish;
+  std::vector<StageScene> stages;
+  OutputScene output;
+  std::optional<UnitsScene> units;
+};
+
+// The law with every default filled in: what kernels and analysis use. A zero means the axis is absent.
+struct LawParameters {
+  double normal_stiffness = 0;      // K_N [F0/a]
+  double tangential_stiffness = 0;  // K_T [F0/a]
+  double damping = 0;               // zeta [-]
+  double friction = 0;              // mu [-]
+  double rolling_friction = 0;      // mu_r [a]; 0: no rolling resistance
+  double rolling_stiffness = 0;     // K_r [F0 a]
+  double attraction = 0;            // F0 [F0]; 0: no cohesion
+  double attraction_range = 0;      // D0 [a]; 0 without cohesion
+};
+LawParameters resolve(const LawScene& law);
+
+}  // namespace isostat
