@@ -12,43 +12,62 @@
 
 namespace isostat {
 
+// The part of the frame that needs only the branch vector and R_i + R_j. The lever arms are proportional,
+// l_i = lever_ratio R_i with lever_ratio = |r_ij| / (R_i + R_j), not R_i: with the radii a rigid rotation of
+// overlapping disks would not be a null vector of G.
 template <class Real>
-struct LinkFrame {
-  Real nx, ny;    // unit normal from i to j; the tangent is t = z x n = (-ny, nx)
-  Real distance;  // [a] |r_ij|
-  Real gap;       // [a] h = |r_ij| - R_i - R_j
-  Real lever_i, lever_j;  // [a] l_i = |r_ij| R_i / (R_i + R_j): contact point to centre. Not R_i: with the radii a
-                          // rigid rotation of overlapping disks would not be a null vector of G.
+struct PairFrame {
+  Real nx, ny;       // unit normal from i to j; the tangent is t = z x n = (-ny, nx)
+  Real distance;     // [a] |r_ij|
+  Real gap;          // [a] h = |r_ij| - R_i - R_j
+  Real lever_ratio;  // [-]
 };
 
-// (dx, dy) = r_ij including the image shift.
 template <class Real>
-inline LinkFrame<Real> link_frame(Real dx, Real dy, Real radius_i, Real radius_j) {
-  using std::sqrt;
-  const Real sum = radius_i + radius_j;
-  const Real distance = sqrt(dx * dx + dy * dy);
-  const Real q = Real(1.0) / (distance * sum);  // one division serves 1/distance and 1/sum
-  const Real inverse = q * sum;
-  const Real scale = q * distance * distance;
-  return {dx * inverse, dy * inverse, distance, distance - sum, scale * radius_i, scale * radius_j};
-}
+struct LinkFrame : PairFrame<Real> {
+  Real lever_i, lever_j;  // [a] contact point to centre
+};
 
 template <class Real>
 struct LinkVelocity {
   Real normal, tangential, rolling;
 };
 
-template <class Real>
-inline LinkVelocity<Real> link_velocity(const LinkFrame<Real>& f, Real dvx, Real dvy, Real spin_i, Real spin_j) {
-  return {f.nx * dvx + f.ny * dvy, f.nx * dvy - f.ny * dvx - (f.lever_i * spin_i + f.lever_j * spin_j), spin_j - spin_i};
-}
-
-// The adjoint: force on j (opposite on i) and the two moments from (N, T, M).
+// The adjoint of LinkVelocity: force on j (opposite on i) and the two moments from (N, T, M).
 template <class Real>
 struct LinkLoad {
   Real fx, fy;              // force on j
   Real moment_i, moment_j;  // about the centres
 };
+
+// (dx, dy) = r_ij including the image shift; one division serves 1/distance and 1/radius_sum.
+template <class Real>
+inline PairFrame<Real> pair_frame(Real dx, Real dy, Real radius_sum) {
+  using std::sqrt;
+  const Real distance = sqrt(dx * dx + dy * dy);
+  const Real q = Real(1.0) / (distance * radius_sum);
+  const Real inverse = q * radius_sum;
+  return {dx * inverse, dy * inverse, distance, distance - radius_sum, q * distance * distance};
+}
+
+template <class Real>
+inline LinkFrame<Real> link_frame(Real dx, Real dy, Real radius_i, Real radius_j) {
+  const PairFrame<Real> f = pair_frame<Real>(dx, dy, radius_i + radius_j);
+  return {f, f.lever_ratio * radius_i, f.lever_ratio * radius_j};
+}
+
+// surface_sum = R_i w_i + R_j w_j, spin_difference = w_j - w_i.
+template <class Real>
+inline LinkVelocity<Real> pair_velocity(const PairFrame<Real>& f, Real dvx, Real dvy, Real surface_sum,
+                                        Real spin_difference) {
+  return {f.nx * dvx + f.ny * dvy, f.nx * dvy - f.ny * dvx - f.lever_ratio * surface_sum, spin_difference};
+}
+
+template <class Real>
+inline LinkVelocity<Real> link_velocity(const LinkFrame<Real>& f, Real dvx, Real dvy, Real spin_i, Real spin_j) {
+  return {f.nx * dvx + f.ny * dvy, f.nx * dvy - f.ny * dvx - (f.lever_i * spin_i + f.lever_j * spin_j),
+          spin_j - spin_i};
+}
 
 template <class Real>
 inline LinkLoad<Real> link_load(const LinkFrame<Real>& f, Real normal, Real tangential, Real moment) {
