@@ -1,0 +1,174 @@
+#include "dem/equilibrium.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/oracle/network_oracle.hpp"
+
+namespace isostat {
+namespace {
+
+LawParameters cohesive_law() {
+  LawParameters law;
+  law.normal_stiffness = law.tangential_stiffness = 1e5;
+  law.damping = 0.8, law.friction = 0.5;
+  law.rolling_friction = 0.005, law.rolling_stiffness = 10;
+  law.attraction = 1, law.attraction_range = 1e-3;
+  return law;
+}
+
+LawParameters cohesionless_law() {
+  LawParameters law = cohesive_law();
+  law.attraction = law.attraction_range = 0;
+  return law;
+}
+
+// Two disks of diameter a at the gap h, with the law's normal force.
+Packing<2> pair_at(double gap, const LawParameters& law) {
+  Packing<2> p;
+  p.bodies.resize(2);
+  p.bodies.id = {1, 2};
+  p.bodies.radius = {0.5, 0.5};
+  p.bodies.mass = {1, 1};
+  p.bodies.inertia = {0.125, 0.125};
+  p.bodies.position = {Vec2{{0, 0}}, Vec2{{1 + gap, 0}}};
+  Link<2> l;
+  l.j = 1, l.gap = gap, l.kind = link_kind(gap, 0, 0, law), l.normal_force = static_normal_force(gap, law);
+  p.links = {l};
+  return p;
+}
+
+TEST(Equilibrium, StickingPairAtZeroForceIsBalanced) {
+  const LawParameters law = cohesive_law();
+  const Certificate c = evaluate_certificate(pair_at(-1e-5, law), law, std::nullopt, {});
+  EXPECT_NEAR(c.max_force, 0, 1e-9);
+  EXPECT_EQ(c.max_moment, 0);
+  EXPECT_FALSE(c.pressure_controlled);
+  EXPECT_TRUE(c.equilibrated);
+  EXPECT_EQ(c.force_scale, 1);
+  EXPECT_EQ(c.smallest_margin, 1);
+}
+
+TEST(Equilibrium, NormalForceFollowsTheLawThroughContactAndRange) {
+  const LawParameters law = cohesive_law();
+  EXPECT_DOUBLE_EQ(static_normal_force(-3e-5, law), 2);
+  EXPECT_DOUBLE_EQ(static_normal_force(0, law), -1);
+  EXPECT_DOUBLE_EQ(static_normal_force(5e-4, law), -0.5);
+  EXPECT_EQ(static_normal_force(1.1e-3, law), 0);
+  EXPECT_EQ(static_normal_force(1e-4, cohesionless_law()), 0);
+}
+
+TEST(Equilibrium, UnbalancedPairReportsItsForceInF1) {
+  LawParameters law = cohesive_law();
+  law.attraction = 4;
+  const Certificate c = evaluate_certificate(pair_at(-5e-5, law), law, std::nullopt, {});  // N = 5 - 4
+  EXPECT_DOUBLE_EQ(c.force_scale, 4);
+  EXPECT_NEAR(c.max_force, 0.25, 1e-12);
+  EXPECT_FALSE(c.equilibrated);
+  EXPECT_EQ(worst_criterion(c).name, "force");
+  EXPECT_NEAR(worst_criterion(c).ratio, 2500, 1e-6);
+}
+
+TEST(Equilibrium, ForceScaleIsTheLargerOfAttractionAndPressure) {
+  EXPECT_EQ(force_scale(cohesive_law(), 0.01), 1);
+  EXPECT_EQ(force_scale(cohesive_law(), 3.0), 3);
+  EXPECT_EQ(force_scale(cohesionless_law(), 0.2), 0.2);
+  EXPECT_EQ(force_scale(cohesionless_law(), std::nullopt), 1);
+}
+
+TEST(Equilibrium, NetLoadsAndStressMatchTheContactPointOracle) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const Packing<2> p = oracle::random_packing(seed, 12, 40, seed % 2 == 0);
+    double force = 0, moment = 0;
+    for (const oracle::NetLoad& l : oracle::net_loads(p))
+      force = std::max(force, norm(l.force)), moment = std::max(moment, std::abs(l.moment));
+    const Certificate c = evaluate_certificate(p, cohesive_law(), std::nullopt, {});
+    EXPECT_NEAR(c.max_force, force, 1e-13 * force);
+    EXPECT_NEAR(c.max_moment, moment, 1e-13 * moment);
+  }
+}
+
+TEST(Equilibrium, MarginCountsAndKindsAgree) {
+  const LawParameters law = cohesive_law();
+  const double h = -2e-5, elastic = 2, limit_t = law.friction * elastic, limit_m = law.rolling_friction * elastic;
+  EXPECT_EQ(link_kind(h, 0.5 * limit_t, 0, law), LinkKind::closed);
+  EXPECT_EQ(link_kind(h, -limit_t * (1 - 0.9e-6), 0, law), LinkKind::sliding);
+  EXPECT_EQ(link_kind(h, limit_t * (1 - 1.1e-6), 0, law), LinkKind::closed);
+  EXPECT_EQ(link_kind(h, 0, limit_m, law), LinkKind::rolling_yielded);
+  EXPECT_EQ(link_kind(h, limit_t, -limit_m, law), LinkKind::both_yielded);
+  EXPECT_EQ(link_kind(0, 0, 0, law), LinkKind::distant);
+
+  Packing<2> p = pair_at(h, law);
+  p.links[0].tangential_force = 0.75 * limit_t;
+  p.links[0].moment = -0.25 * limit_m;
+  Certificate c = evaluate_certificate(p, law, std::nullopt, {});
+  EXPECT_NEAR(c.smallest_margin, 0.25, 1e-12);
+  EXPECT_EQ(c.sliding, 0);
+  p.links[0].tangential_force = -limit_t, p.links[0].moment = limit_m;
+  c = evaluate_certificate(p, law, std::nullopt, {});
+  EXPECT_EQ(c.sliding, 1);
+  EXPECT_EQ(c.rolling_yielded, 1);
+  EXPECT_NEAR(c.smallest_margin, 0, 1e-12);
+
+  LawParameters frictionless = law;
+  frictionless.friction = frictionless.rolling_friction = 0;
+  EXPECT_EQ(evaluate_certificate(pair_at(h, law), frictionless, std::nullopt, {}).sliding, 0);
+}
+
+TEST(Equilibrium, SpinningRattlersDoNotHoldUpACohesionlessPacking) {
+  const LawParameters law = cohesionless_law();
+  Packing<2> p = pair_at(-1e-12, law);  // N = 1e-7
+  p.bodies.resize(3);
+  p.bodies.id[2] = 3, p.bodies.position[2] = {{5, 5}};
+  p.bodies.radius[2] = 0.5, p.bodies.mass[2] = 1, p.bodies.inertia[2] = 0.125, p.bodies.spin[2] = 1;
+  EXPECT_TRUE(evaluate_certificate(p, law, std::nullopt, {}).equilibrated);
+  // ... but a cohesive one counts every grain: 0.5 * 0.125 / 3 of F0 a per grain.
+  const Certificate c = evaluate_certificate(p, cohesive_law(), std::nullopt, {});
+  EXPECT_DOUBLE_EQ(c.kinetic_energy_per_grain, 0.5 * 0.125 / 3);
+  // and a gas without any contact is not at rest
+  p.links.clear();
+  EXPECT_FALSE(evaluate_certificate(p, law, std::nullopt, {}).equilibrated);
+}
+
+// Square lattice of touching disks, one grain a cell: two self-contacts with forces N1, N2; sigma_11 = N1 L1 / (L1 L2).
+TEST(Equilibrium, SquareLatticeCarriesItsPressure) {
+  const LawParameters law = cohesionless_law();
+  Packing<2> p;
+  const double overlap = 1e-5, side = 1 - overlap, n = law.normal_stiffness * overlap;
+  p.cell = PeriodicCell<2>{{{side, side}}};
+  p.bodies.resize(1);
+  p.bodies.radius = {0.5}, p.bodies.mass = {1}, p.bodies.inertia = {0.125};
+  for (int axis : {0, 1}) {
+    Link<2> l;
+    l.shift[static_cast<std::size_t>(axis)] = 1, l.gap = -overlap, l.normal_force = n;
+    p.links.push_back(l);
+  }
+  const StressTensor s = measured_stress(p);
+  EXPECT_NEAR(s.xx, n / side, 1e-14);
+  EXPECT_NEAR(s.yy, n / side, 1e-14);
+  EXPECT_EQ(s.xy, 0);
+  EXPECT_TRUE(evaluate_certificate(p, law, n / side, {}).equilibrated);
+  const Certificate off = evaluate_certificate(p, law, n / side + 2e-4, {});
+  EXPECT_NEAR(off.pressure_error, 2e-4 / (n / side + 2e-4), 1e-10);
+  EXPECT_FALSE(off.equilibrated);
+  p.bodies.velocity[0] = {{0.3, 0}};  // the kinetic part counts in the stress
+  EXPECT_NEAR(measured_stress(p).xx, n / side + 0.09 / (side * side), 1e-13);
+}
+
+TEST(Equilibrium, NotANumberIsNeverBalanced) {
+  const LawParameters law = cohesive_law();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Packing<2> p = pair_at(-1e-5, law);
+  p.links[0].normal_force = nan;
+  EXPECT_FALSE(evaluate_certificate(p, law, std::nullopt, {}).equilibrated);
+  p = pair_at(-1e-5, law);
+  p.bodies.velocity[1][0] = nan;
+  const Certificate c = evaluate_certificate(p, law, std::nullopt, {});
+  EXPECT_FALSE(c.equilibrated);
+  EXPECT_EQ(worst_criterion(c).name, "kinetic energy");
+}
+
+}  // namespace
+}  // namespace isostat
