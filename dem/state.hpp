@@ -35,7 +35,15 @@ struct SolverMemory {
   std::vector<PairMemory> pairs;     // pairs with history, any order
   std::vector<Vec2> outer_position, inner_position;  // [a] at the last rebuild of each list
   Vec2 outer_length{}, inner_length{};               // [a] cell edges then
+  double outer_skin = 0, inner_skin = 0;             // [a]
   double outer_travel = 0, inner_travel = 0;         // [a] part of the skin that motion may have used since
+};
+
+// Energy taken out of, or put into, the bodies since the start of the run; kept only when the scene asks for energies.
+struct EnergyLedger {
+  double viscous = 0, sliding = 0, rolling = 0, drag = 0;  // [F0 a] dissipated
+  double cell_work = 0;                                    // [F0 a] done by the moving cell on the bodies
+  double injected = 0;                                     // [F0 a] by drawing velocities, changing parameters
 };
 
 // Where the run stands in the scene's stages.
@@ -74,6 +82,7 @@ struct State {
   std::optional<double> imposed_pressure;  // [F0/a] of the current or last stage; none: fixed cell
   SolverMemory memory;
   StageProgress progress;
+  EnergyLedger ledger;
   Certificate certificate;
   Scene scene;                      // resolved scene: what was asked, --set applied
   std::uint64_t seed = 1;

@@ -1,0 +1,43 @@
+// The bodies as the kernels see them: rows, loads, constants (see kernel/row.hpp), in storage order, which follows the
+// cells of the neighbour grid. Two rows beyond the last body are the far-apart pair that pads segments.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "dem/aligned.hpp"
+#include "dem/kernel/row.hpp"
+#include "geometry/vec.hpp"
+
+namespace isostat {
+
+struct BodyConstants {
+  double inverse_mass, inverse_inertia;  // [1/m], [1/(m a^2)]
+  double radius;                         // [a]
+  double mass;                           // [m]
+};
+
+struct BodiesStore {
+  std::vector<std::int64_t> id;
+  AlignedVector<double> rows;   // kernel::kRowWidth a body: x, y, u, v, R w, w, p, q
+  AlignedVector<double> loads;  // kernel::kLoadWidth a body: Fx, Fy, A, B; moment = R A + B
+  AlignedVector<BodyConstants> constants;
+
+  std::size_t size() const { return id.size(); }
+  void resize(std::size_t n) {
+    id.resize(n);
+    rows.assign((n + 2) * kernel::kRowWidth, 0.0);
+    rows[(n + 1) * kernel::kRowWidth] = kFar;
+    loads.assign((n + 2) * kernel::kLoadWidth, 0.0);
+    constants.resize(n);
+  }
+  double* row(std::size_t k) { return rows.data() + k * kernel::kRowWidth; }
+  const double* row(std::size_t k) const { return rows.data() + k * kernel::kRowWidth; }
+  double* load(std::size_t k) { return loads.data() + k * kernel::kLoadWidth; }
+  const double* load(std::size_t k) const { return loads.data() + k * kernel::kLoadWidth; }
+  Vec2 position(std::size_t k) const { return {{row(k)[0], row(k)[1]}}; }
+
+ private:
+  static constexpr double kFar = 1e6;  // [a] beyond any interaction; the distance of the padding pair
+};
+
+}  // namespace isostat

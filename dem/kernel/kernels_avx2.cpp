@@ -1,0 +1,10 @@
+#include "dem/kernel/pair_force_impl.hpp"
+
+namespace isostat::kernel {
+
+const KernelTable& avx2_kernels() {
+  static constexpr KernelTable table = kernel_table<Native>(Supported{});
+  return table;
+}
+
+}  // namespace isostat::kernel

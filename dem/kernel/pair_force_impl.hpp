@@ -1,0 +1,114 @@
+// The pair force kernel: one source for every instruction set, law and tally. Included only by the translation units
+// dem/kernel/kernels_*.cpp, each compiled for its own instruction set.
+#pragma once
+#include "dem/kernel/contact_law.hpp"
+#include "dem/kernel/pair_force.hpp"
+#include "dem/kernel/row.hpp"
+#include "dem/link.hpp"
+
+namespace isostat::kernel {
+
+template <class V>
+V load(const double* p) {
+  return V(p, stdx::element_aligned);
+}
+
+template <class V>
+V image_offset(const PairForceInput& in, std::size_t k, int axis) {
+  return V([&](auto lane) { return in.offsets[in.pairs.shift[k + lane]][axis]; });
+}
+
+// Part of the step that a contact formed within it has existed for: the gap was positive a step ago. Without it a new
+// spring is stretched by the whole step, a first-order error in every oblique impact.
+template <class V>
+V contact_time(V gap, V normal_displacement) {
+  V fraction(1.0);
+  const auto formed = gap < V(0.0) && gap - normal_displacement > V(0.0);
+  if (any_of(formed)) where(formed, fraction) = gap / normal_displacement;
+  return fraction;
+}
+
+template <class V, class Law, Tally kTally, bool kImages>
+PairForceTally pair_forces(const PairForceInput& in) {
+  const LawParameters& law = in.law;
+  const V dt(in.time_step);
+  V virial_x(0.0), virial_y(0.0), viscous(0.0), sliding(0.0), rolling(0.0);
+
+  for (std::size_t k = in.begin; k < in.end; k += V::size()) {
+    PairDifference<V> d = load_differences(in.rows, in.pairs.i + k, in.pairs.j + k, V());
+    if constexpr (kImages) {
+      d.x += image_offset<V>(in, k, 0);
+      d.y += image_offset<V>(in, k, 1);
+    }
+    if constexpr (kTally != Tally::nothing) {
+      d.u = mul_add(V(in.flow_half[0]), d.x, d.u);
+      d.v = mul_add(V(in.flow_half[1]), d.y, d.v);
+      d.p = mul_add(V(in.flow_now[0]), d.x, d.p);
+      d.q = mul_add(V(in.flow_now[1]), d.y, d.q);
+    }
+    const PairFrame<V> f = pair_frame<V>(d.x, d.y, load<V>(in.pairs.radius_sum + k));
+    const auto contact = f.gap < V(0.0);
+    const V repulsion = law::NormalLinear::repulsion(law, f.gap);
+
+    V normal = repulsion;
+    if constexpr (Law::Adhesion::acts) normal += Law::Adhesion::force(law, f.gap);
+    if constexpr (Law::Damping::acts) {
+      const V receding = f.nx * d.p + f.ny * d.q;
+      V damping = Law::Damping::force(load<V>(in.pairs.damping + k), receding);
+      where(!contact, damping) = V(0.0);
+      normal += damping;
+      if constexpr (kTally == Tally::energy) viscous -= damping * receding * dt;
+    }
+
+    V tangential(0.0), moment(0.0);
+    if constexpr (Law::Friction::acts || Law::Rolling::acts) {
+      const LinkVelocity<V> velocity = pair_velocity<V>(f, d.u, d.v, d.surface_sum, d.spin);
+      const V time = dt * contact_time<V>(f.gap, velocity.normal * dt);
+      V released(0.0);
+      V* const watched = kTally == Tally::energy ? &released : nullptr;
+      if constexpr (Law::Friction::acts) {
+        tangential = law::spring<typename Law::Friction>(law, load<V>(in.pairs.tangential + k),
+                                                         velocity.tangential * time, repulsion, watched);
+        tangential.copy_to(in.pairs.tangential + k, stdx::element_aligned);
+        if constexpr (kTally == Tally::energy) sliding += released * V(0.5 / law.tangential_stiffness);
+      }
+      if constexpr (Law::Rolling::acts) {
+        moment = law::spring<typename Law::Rolling>(law, load<V>(in.pairs.moment + k), velocity.rolling * time,
+                                                    repulsion, watched);
+        moment.copy_to(in.pairs.moment + k, stdx::element_aligned);
+        if constexpr (kTally == Tally::energy) rolling += released * V(0.5 / law.rolling_stiffness);
+      }
+    }
+
+    const V fx = f.nx * normal - f.ny * tangential;
+    const V fy = f.ny * normal + f.nx * tangential;
+    if constexpr (kTally != Tally::nothing) {
+      virial_x = mul_add(fx, d.x, virial_x);
+      virial_y = mul_add(fy, d.y, virial_y);
+    }
+    add_loads(in.loads, in.pairs.i + k, in.pairs.j + k, fx, fy, -(f.lever_ratio * tangential), moment);
+  }
+
+  PairForceTally sum;
+  if constexpr (kTally != Tally::nothing) sum.virial[0] = reduce(virial_x), sum.virial[1] = reduce(virial_y);
+  if constexpr (kTally == Tally::energy)
+    sum.viscous = reduce(viscous), sum.sliding = reduce(sliding), sum.rolling = reduce(rolling);
+  return sum;
+}
+
+template <class V, class Law, Tally kTally>
+PairForceTally pair_force_kernel(const PairForceInput& in) {
+  return in.images ? pair_forces<V, Law, kTally, true>(in) : pair_forces<V, Law, kTally, false>(in);
+}
+
+template <class V, class Law>
+inline constexpr KernelSet kernel_set = {&pair_force_kernel<V, Law, Tally::nothing>,
+                                         &pair_force_kernel<V, Law, Tally::stress>,
+                                         &pair_force_kernel<V, Law, Tally::energy>};
+
+template <class V, class... Law>
+constexpr std::array<KernelSet, sizeof...(Law)> kernel_table(Catalogue<Law...>) {
+  return {kernel_set<V, Law>...};
+}
+
+}  // namespace isostat::kernel

@@ -1,0 +1,51 @@
+// Axes "friction" and "rolling": an elastic spring with a yield limit proportional to the repulsion N_e.
+//
+// The spring's force is the history (K_T u or K_r theta): clamping it every step is the elastic-perfectly-plastic law
+// of Gilabert 2007, Eqs. 8 and 10. The printed Heaviside function never unloads and misses a falling N_e.
+#pragma once
+#include <experimental/simd>
+#include <string_view>
+
+#include "dem/scene.hpp"
+
+namespace isostat::law {
+namespace stdx = std::experimental;
+
+struct FrictionNone {
+  static constexpr std::string_view keyword = "none";
+  static constexpr bool acts = false;
+};
+
+// |T| <= mu N_e, dT = -K_T du with du the displacement of j relative to i along t. K_T [F0/a], mu [-]. No viscous part.
+struct FrictionCoulomb {
+  static constexpr std::string_view keyword = "coulomb";
+  static constexpr bool acts = true;
+  static double stiffness(const LawParameters& p) { return p.tangential_stiffness; }
+  static double coefficient(const LawParameters& p) { return p.friction; }
+};
+
+struct RollingNone {
+  static constexpr std::string_view keyword = "none";
+  static constexpr bool acts = false;
+};
+
+// |M| <= mu_r N_e, dM = -K_r (w_j - w_i) dt. K_r [F0 a], mu_r [a].
+struct RollingElastoplastic {
+  static constexpr std::string_view keyword = "elastoplastic";
+  static constexpr bool acts = true;
+  static double stiffness(const LawParameters& p) { return p.rolling_stiffness; }
+  static double coefficient(const LawParameters& p) { return p.rolling_friction; }
+};
+
+// The spring after a displacement: trial force, clamped to the limit. `released` is the elastic energy times 2K that
+// the clamp takes away, trial^2 - force^2.
+template <class Axis, class Real>
+Real spring(const LawParameters& p, Real force, Real displacement, Real repulsion, Real* released = nullptr) {
+  const Real limit = Real(Axis::coefficient(p)) * repulsion;
+  const Real trial = force - Real(Axis::stiffness(p)) * displacement;
+  const Real clamped = stdx::min(stdx::max(trial, -limit), limit);
+  if (released) *released = trial * trial - clamped * clamped;
+  return clamped;
+}
+
+}  // namespace isostat::law

@@ -1,0 +1,98 @@
+// Two nested Verlet lists. The outer one holds pairs within a wide skin and is rebuilt, with the bodies sorted along
+// the cells of a grid, when motion may have used the skin up; the inner one is filtered from it every hundred steps or
+// so and is what the force kernels run over: little more than the true interactions.
+//
+// Bodies are cut into chunks of consecutive storage order, a number that depends on N only. Pairs inside a chunk,
+// pairs between a chunk and the next, and the rest go to segments of their own; segments of one phase touch disjoint
+// bodies. So threads need no locks, and the order of every sum is the same for any number of threads.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "dem/aligned.hpp"
+#include "dem/bodies_store.hpp"
+#include "dem/kernel/pair_force.hpp"
+#include "dem/state.hpp"
+#include "geometry/periodic_cell.hpp"
+
+namespace isostat {
+
+// Image codes: (s1 + 1) + 3 (s2 + 1); 4 is the pair as it stands.
+constexpr std::uint8_t image_code(const ImageShift<2>& s) { return static_cast<std::uint8_t>(s[0] + 1 + 3 * (s[1] + 1)); }
+constexpr ImageShift<2> image_shift(std::uint8_t code) { return {code % 3 - 1, code / 3 - 1}; }
+inline constexpr std::uint8_t kNoImage = 4;
+
+struct Segment {
+  std::size_t begin = 0, end = 0;  // multiples of kPairBatch
+  bool images = false;
+};
+
+class NeighbourLists {
+ public:
+  // range: interaction beyond contact (D0) [a]; damping: zeta; stiffness: K_N, for the pairs' damping coefficients.
+  NeighbourLists(std::size_t bodies, double range, double damping, double stiffness);
+
+  // Sorts bodies, wraps them into the cell, builds both lists and carries the histories over.
+  void rebuild_outer(BodiesStore& bodies, const PeriodicCell<2>& cell, double largest_displacement);
+  // Filters the inner list anew. largest_displacement [a]: how far a pair may move relative to itself in one step; it
+  // sizes the inner skin.
+  void rebuild_inner(const BodiesStore& bodies, const PeriodicCell<2>& cell, double largest_displacement);
+
+  // What motion may have used of the skins since the rebuilds; pair_displacement [a] is this step's bound.
+  bool needs_inner(double pair_displacement) { return (inner_travel_ += pair_displacement) > inner_skin_; }
+  bool needs_outer(double pair_displacement) { return (outer_travel_ += pair_displacement) > outer_skin_ - inner_skin_; }
+
+  PairArrays arrays();
+  const std::vector<Segment>& phase(int p) const { return phases_[p]; }  // 0: chunks, 1-2: between, 3: the rest
+  static constexpr int kPhases = 4;
+  static int chunk_count(std::size_t bodies);
+  int chunks() const { return chunks_; }
+  std::size_t chunk_begin(int chunk) const;  // first body of the chunk
+  std::size_t inner_pairs() const { return i_.size(); }
+  std::size_t outer_pairs() const { return outer_i_.size(); }
+  std::size_t inner_rebuilds() const { return inner_rebuilds_; }
+  std::size_t outer_rebuilds() const { return outer_rebuilds_; }
+
+  template <class Visit>  // visit(i, j, shift code, T, M) for every listed pair, in list order
+  void for_each(Visit&& visit) const {
+    for (std::size_t k = 0; k < i_.size(); ++k)
+      if (static_cast<std::size_t>(i_[k]) < bodies_) visit(i_[k], j_[k], shift_[k], tangential_[k], moment_[k]);
+  }
+
+  void remember(SolverMemory& memory) const;
+  // Lists exactly as they were when `memory` was taken; bodies are in the storage order of that time.
+  void restore(const BodiesStore& bodies, const SolverMemory& memory);
+
+ private:
+  struct History {
+    std::int32_t j;
+    std::uint8_t shift;
+    double tangential, moment;
+  };
+  void sort_bodies(BodiesStore& bodies, const PeriodicCell<2>& cell, std::vector<PairMemory>& histories);
+  void find_outer(const std::vector<Vec2>& positions, const std::vector<double>& radii, const PeriodicCell<2>& cell);
+  void filter_inner(const BodiesStore& bodies, const std::vector<Vec2>& positions, const PeriodicCell<2>& cell);
+  void set_histories(const std::vector<PairMemory>& histories);
+  std::vector<PairMemory> histories() const;
+  int chunk_of(std::int32_t body) const;
+
+  std::size_t bodies_;
+  int chunks_;
+  double range_, damping_, stiffness_;
+  double outer_skin_ = 0, inner_skin_ = 0, outer_travel_ = 0, inner_travel_ = 0;  // [a]
+  std::size_t inner_rebuilds_ = 0, outer_rebuilds_ = 0;
+
+  std::vector<Vec2> outer_position_, inner_position_;
+  PeriodicCell<2> outer_cell_, inner_cell_;
+  std::vector<std::int32_t> outer_i_, outer_j_;
+  std::vector<std::uint8_t> outer_shift_;
+
+  AlignedVector<std::int32_t> i_, j_;
+  AlignedVector<std::uint8_t> shift_;
+  AlignedVector<double> damping_coefficient_, radius_sum_, tangential_, moment_;
+  std::vector<Segment> phases_[kPhases];
+  std::vector<History> history_;            // by body i, while a list is rebuilt
+  std::vector<std::int32_t> history_begin_;
+};
+
+}  // namespace isostat
