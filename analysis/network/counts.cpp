@@ -1,0 +1,86 @@
+// Section "counts": coordination numbers and solid fractions.
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "analysis/network/coordination.hpp"
+#include "analysis/network/sections.hpp"
+
+namespace isostat {
+namespace {
+
+constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();  // written as null
+
+// Sum of the grains' measures over the cell's, overlaps not subtracted; undefined without a cell.
+template <int D>
+double solid_fraction(const Packing<D>& packing) {
+  if (!packing.cell) return kUndefined;
+  double sum = 0;
+  for (const double r : packing.bodies.radius)
+    sum += D == 2 ? std::numbers::pi * r * r : 4.0 / 3.0 * std::numbers::pi * r * r * r;
+  return sum / packing.cell->measure();
+}
+
+// Gilabert 2007, Eq. 14 (Campbell): the 3D solid fraction that corresponds to one of disks.
+double corresponding_solid_fraction_3d(double phi) {
+  return 4.0 / (3.0 * std::sqrt(std::numbers::pi)) * std::pow(phi, 1.5);
+}
+
+// Proportions of the non-rattlers with k = 0, 1, ... interactions; at least up to k = 6, as in Figs. 3 and 6.
+std::vector<double> proportions(const Coordination& c) {
+  std::vector<double> x(7, 0.0);
+  const auto rest = static_cast<double>(static_cast<std::int64_t>(c.degree.size()) - c.rattlers);
+  for (std::size_t k = 0; k < c.degree.size(); ++k) {
+    if (c.rattler[k]) continue;
+    const auto z = static_cast<std::size_t>(c.backbone_degree[k]);
+    if (z >= x.size()) x.resize(z + 1, 0.0);
+    x[z] += 1;
+  }
+  for (double& v : x) v = rest > 0 ? v / rest : kUndefined;
+  return x;
+}
+
+template <int D>
+nlohmann::ordered_json counts_of(const Packing<D>& packing, const ForceReading& reading) {
+  const Coordination c = coordination(packing, reading);
+  const auto grains = static_cast<std::int64_t>(packing.bodies.size());
+  const std::int64_t rest = grains - c.rattlers;
+  nlohmann::ordered_json json;
+  json["grains"] = grains;
+  json["contacts"] = c.contacts;
+  json["distant"] = c.distant;
+  json["unloaded_contacts"] = c.unloaded;
+  json["rattlers"] = c.rattlers;
+  const double phi = solid_fraction(packing);
+  json["solid_fraction"] = phi;
+  json["solid_fraction_3d"] = D == 2 ? corresponding_solid_fraction_3d(phi) : phi;
+  json["z"] = 2.0 * static_cast<double>(c.contacts + c.distant) / static_cast<double>(grains);
+  json["z_star"] = rest > 0 ? 2.0 * static_cast<double>(c.backbone_links) / static_cast<double>(rest) : kUndefined;
+  json["x"] = proportions(c);
+  auto one_coordinated = nlohmann::ordered_json::array();
+  for (std::size_t k = 0; k < c.degree.size(); ++k)
+    if (!c.rattler[k] && c.backbone_degree[k] == 1) one_coordinated.push_back(packing.bodies.id[k]);
+  json["one_coordinated"] = std::move(one_coordinated);
+  return json;
+}
+
+}  // namespace
+
+nlohmann::ordered_json counts_section(const AnalysisInput& input, const AnalysisOptions&) {
+  const ForceReading reading = read_forces(input);
+  return input.packing_3d ? counts_of(*input.packing_3d, reading) : counts_of(input.packing, reading);
+}
+
+std::vector<Table> counts_tables(const AnalysisInput& input, const AnalysisOptions&) {
+  const Packing<2>& packing = input.planar("counts");
+  const Coordination c = coordination(packing, read_forces(input));
+  Table table{"grains", {"id", "x", "y", "r", "interactions", "backbone_interactions", "rattler"}, {}};
+  for (std::size_t k = 0; k < packing.bodies.size(); ++k)
+    table.rows.push_back({static_cast<double>(packing.bodies.id[k]), packing.bodies.position[k][0],
+                          packing.bodies.position[k][1], packing.bodies.radius[k], static_cast<double>(c.degree[k]),
+                          static_cast<double>(c.backbone_degree[k]), static_cast<double>(c.rattler[k])});
+  return {table};
+}
+
+}  // namespace isostat

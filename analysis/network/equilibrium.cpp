@@ -1,0 +1,60 @@
+// Section "equilibrium": the certificate of dem/equilibrium.hpp, recomputed from the file, beside the one it stores.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "analysis/network/force_scale.hpp"
+#include "analysis/network/sections.hpp"
+#include "dem/equilibrium.hpp"
+#include "dem/link.hpp"
+
+namespace isostat {
+namespace {
+
+constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
+
+// Largest difference between a link's stored normal force and the static law at the gap of the stored positions [F1]:
+// shows a file whose forces and positions do not belong together.
+double law_residual(const State& state, double scale) {
+  double largest = 0;
+  for (const Link<2>& link : state.packing.links) {
+    const auto i = static_cast<std::size_t>(link.i), j = static_cast<std::size_t>(link.j);
+    Vec2 r = state.packing.bodies.position[j] - state.packing.bodies.position[i];
+    if (state.packing.cell) r += state.packing.cell->offset(link.shift);
+    const double gap = link_frame(r[0], r[1], state.packing.bodies.radius[i], state.packing.bodies.radius[j]).gap;
+    largest = std::max(largest, std::abs(link.normal_force - static_normal_force(gap, state.law)));
+  }
+  return largest / scale;
+}
+
+}  // namespace
+
+nlohmann::ordered_json equilibrium_section(const AnalysisInput& input, const AnalysisOptions&) {
+  if (!read_forces(input).law_known)
+    refuse_section(input, "equilibrium", "needs a state of the solver: this input has no interaction law");
+  const State& state = *input.state;
+  const Certificate c = evaluate_certificate(state);
+  const auto contacts = std::count_if(state.packing.links.begin(), state.packing.links.end(),
+                                      [](const Link<2>& l) { return l.kind != LinkKind::distant; });
+  const bool yields = contacts > 0 && (state.law.friction > 0 || state.law.rolling_friction > 0);
+  nlohmann::ordered_json json;
+  json["max_force"] = c.max_force;
+  json["max_moment"] = c.max_moment;
+  json["pressure_error"] = c.pressure_controlled ? c.pressure_error : kUndefined;
+  json["kinetic_energy_per_grain"] = c.kinetic_energy_per_grain;
+  json["tolerance"] = {{"force", c.tolerance_force},
+                       {"moment", c.tolerance_force},
+                       {"pressure", c.pressure_controlled ? c.tolerance_pressure : kUndefined},
+                       {"kinetic_energy", c.tolerance_kinetic}};
+  json["force_scale"] = c.force_scale;
+  json["sliding"] = c.sliding;
+  json["rolling_yielded"] = c.rolling_yielded;
+  json["smallest_margin"] = yields ? c.smallest_margin : kUndefined;
+  json["law_residual"] = law_residual(state, c.force_scale);
+  json["finishing"] = c.finishing;
+  json["equilibrated"] = c.equilibrated;
+  return json;
+}
+
+}  // namespace isostat

@@ -1,0 +1,50 @@
+#include "analysis/network/force_scale.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dem/equilibrium.hpp"
+
+namespace isostat {
+
+template <>
+double force_magnitude(const Link<2>& link) {
+  return std::hypot(link.normal_force, link.tangential_force);
+}
+template <>
+double force_magnitude(const Link<3>& link) {
+  return std::hypot(link.normal_force, norm(link.tangential_force));
+}
+
+namespace {
+
+template <int D>
+ForceReading read_foreign(const Packing<D>& packing) {
+  ForceReading reading;
+  double sum = 0, most_tensile = 0;
+  for (const Link<D>& link : packing.links) {
+    sum += force_magnitude(link);
+    most_tensile = std::min(most_tensile, link.normal_force);
+  }
+  if (!(sum > 0)) return reading;
+  reading.known = true;
+  reading.scale = sum / static_cast<double>(packing.links.size());
+  reading.threshold = kLoadTolerance * reading.scale;
+  reading.cohesive = most_tensile < -reading.threshold;
+  return reading;
+}
+
+}  // namespace
+
+ForceReading read_forces(const AnalysisInput& input) {
+  if (input.packing_3d) return read_foreign(*input.packing_3d);
+  if (!input.state || !(input.state->law.normal_stiffness > 0)) return read_foreign(input.packing);
+  ForceReading reading;
+  reading.known = reading.law_known = true;
+  reading.cohesive = input.state->law.attraction > 0;
+  reading.scale = force_scale(input.state->law, input.state->imposed_pressure);
+  reading.threshold = kLoadTolerance * reading.scale;
+  return reading;
+}
+
+}  // namespace isostat

@@ -1,0 +1,123 @@
+// Section "forces": populations of repulsive, attractive and unstressed interactions (Gilabert 2007, Table VI) and the
+// force distributions of Figs. 9, 10, 14, 15, 17.
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "analysis/network/force_scale.hpp"
+#include "analysis/network/histogram.hpp"
+#include "analysis/network/sections.hpp"
+
+namespace isostat {
+namespace {
+
+constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
+
+// Interactions of one sign of N: number, mean and root mean square of |N|.
+struct Population {
+  double count = 0, sum = 0, sum_of_squares = 0;
+  void add(double force) { count += 1, sum += force, sum_of_squares += force * force; }
+  double mean() const { return count > 0 ? sum / count : kUndefined; }
+  double root_mean_square() const { return count > 0 ? std::sqrt(sum_of_squares / count) : kUndefined; }
+};
+
+// Fig. 15: angle between n and F in degrees; 0 repulsive, 180 tensile, both with T = 0.
+double angle_to_normal(const Link<2>& link) {
+  return std::atan2(std::abs(link.tangential_force), link.normal_force) * (180 / std::numbers::pi);
+}
+
+nlohmann::ordered_json as_json(const Histogram& h) { return {{"edges", h.edges}, {"density", h.density}}; }
+nlohmann::ordered_json as_json(const Histogram2& h) {
+  return {{"edges", {h.x_edges, h.y_edges}}, {"density", h.density}};
+}
+
+std::vector<double> degrees(int from, int to, int step) {
+  std::vector<double> edges;
+  for (int a = from; a <= to; a += step) edges.push_back(a);
+  return edges;
+}
+
+std::vector<double> decades(int from, int to, int per_decade, double unit) {
+  std::vector<double> edges;
+  for (int k = from * per_decade; k <= to * per_decade; ++k)
+    edges.push_back(unit * std::pow(10.0, static_cast<double>(k) / per_decade));
+  return edges;
+}
+
+nlohmann::ordered_json histograms(const Packing<2>& packing, const ForceReading& reading) {
+  std::vector<double> normal, tangential, relative, magnitude, angle;
+  double repulsive_sum = 0, repulsive = 0;
+  for (const Link<2>& link : packing.links) {
+    const double total = force_magnitude(link);
+    normal.push_back(link.normal_force);
+    magnitude.push_back(total);
+    if (link.normal_force > reading.threshold) repulsive_sum += link.normal_force, repulsive += 1;
+    if (link.kind == LinkKind::distant) continue;
+    tangential.push_back(link.tangential_force);
+    relative.push_back(link.normal_force);
+    if (total > reading.threshold) angle.push_back(angle_to_normal(link));
+  }
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  if (normal.empty()) return json;
+  json["N"] = as_json(anchored_histogram(normal, 0.02 * reading.scale));
+  if (!relative.empty()) json["NT"] = as_json(anchored_histogram_2(relative, tangential, 0.02 * reading.scale));
+  if (!angle.empty()) json["angle"] = as_json(histogram_over(angle, degrees(0, 180, 2)));
+  json["F"] = as_json(histogram_over(magnitude, decades(-5, 2, 10, reading.scale)));
+  if (repulsive > 0) {  // Fig. 9a
+    std::vector<double> over_mean;
+    for (const double n : normal)
+      if (n > reading.threshold) over_mean.push_back(n * repulsive / repulsive_sum);
+    json["N_over_mean"] = as_json(anchored_histogram(over_mean, 0.1));
+  }
+  return json;
+}
+
+}  // namespace
+
+nlohmann::ordered_json forces_section(const AnalysisInput& input, const AnalysisOptions&) {
+  const Packing<2>& packing = input.planar("forces");
+  const ForceReading reading = read_forces(input);
+  if (!reading.known) refuse_section(input, "forces", "needs forces: this input has none");
+  Population plus, minus, zero;
+  double unstressed = 0, above_tenth = 0;
+  std::vector<double> magnitudes;
+  for (const Link<2>& link : packing.links) {
+    const double n = link.normal_force;
+    (n > reading.threshold ? plus : n < -reading.threshold ? minus : zero).add(std::abs(n));
+    unstressed += !(force_magnitude(link) > reading.threshold);
+    above_tenth += std::abs(n) > 0.1 * reading.scale;
+    magnitudes.push_back(std::abs(n));
+  }
+  const auto grains = static_cast<double>(packing.bodies.size()), links = static_cast<double>(packing.links.size());
+  const PowerLaw small = fit_power_law(magnitudes, 1e-3 * reading.scale, 1e-2 * reading.scale);
+  nlohmann::ordered_json json;
+  json["z_plus"] = 2 * plus.count / grains;
+  json["z_minus"] = 2 * minus.count / grains;
+  json["z_zero"] = 2 * zero.count / grains;
+  json["N_plus"] = plus.mean();
+  json["N_minus"] = minus.mean();
+  json["N_plus_2"] = plus.root_mean_square();
+  json["N_minus_2"] = minus.root_mean_square();
+  json["zero_fraction"] = links > 0 ? unstressed / links : kUndefined;
+  json["above_tenth_fraction"] = links > 0 ? above_tenth / links : kUndefined;
+  json["small_force_exponent"] = small.exponent;
+  json["small_force_exponent_error"] = small.error;
+  json["threshold"] = reading.threshold;
+  json["histograms"] = histograms(packing, reading);
+  return json;
+}
+
+std::vector<Table> forces_tables(const AnalysisInput& input, const AnalysisOptions&) {
+  const Packing<2>& packing = input.planar("forces");
+  Table table{"links", {"i", "j", "distant", "h", "N", "T", "M", "F", "angle"}, {}};
+  for (const Link<2>& link : packing.links) {
+    const auto id = [&](std::int32_t k) { return static_cast<double>(packing.bodies.id[static_cast<std::size_t>(k)]); };
+    table.rows.push_back({id(link.i), id(link.j), static_cast<double>(link.kind == LinkKind::distant), link.gap,
+                          link.normal_force, link.tangential_force, link.moment, force_magnitude(link),
+                          angle_to_normal(link)});
+  }
+  return {table};
+}
+
+}  // namespace isostat

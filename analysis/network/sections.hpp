@@ -1,0 +1,19 @@
+// Sections of `analyze` about the force-carrying network (docs/report.md has every key).
+#pragma once
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "analysis/report.hpp"
+
+namespace isostat {
+
+nlohmann::ordered_json counts_section(const AnalysisInput& input, const AnalysisOptions& options);
+nlohmann::ordered_json equilibrium_section(const AnalysisInput& input, const AnalysisOptions& options);
+nlohmann::ordered_json stress_section(const AnalysisInput& input, const AnalysisOptions& options);
+nlohmann::ordered_json forces_section(const AnalysisInput& input, const AnalysisOptions& options);
+nlohmann::ordered_json percolation_section(const AnalysisInput& input, const AnalysisOptions& options);
+
+std::vector<Table> counts_tables(const AnalysisInput& input, const AnalysisOptions& options);
+std::vector<Table> forces_tables(const AnalysisInput& input, const AnalysisOptions& options);
+
+}  // namespace isostat

@@ -1,0 +1,46 @@
+// Section "stress": Eq. 3 with each pair once, and the Rumpf formula against the mean normal force (Eqs. 15-18).
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "analysis/network/coordination.hpp"
+#include "analysis/network/sections.hpp"
+#include "dem/equilibrium.hpp"
+
+namespace isostat {
+namespace {
+
+constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
+
+// Eq. 17 with D = 2 solved for F_N = pi P <d^2> / (<d> z Phi); Eq. 18 is its value for d uniform in [a/2, a].
+double rumpf_force(const Packing<2>& packing, double pressure, double z) {
+  double sum_d = 0, sum_d2 = 0;
+  for (const double r : packing.bodies.radius) sum_d += 2 * r, sum_d2 += 4 * r * r;
+  const double phi = std::numbers::pi / 4 * sum_d2 / packing.cell->measure();
+  return z > 0 ? std::numbers::pi * pressure * sum_d2 / (sum_d * z * phi) : kUndefined;
+}
+
+}  // namespace
+
+nlohmann::ordered_json stress_section(const AnalysisInput& input, const AnalysisOptions&) {
+  const Packing<2>& packing = input.planar("stress");
+  const ForceReading reading = read_forces(input);
+  if (!packing.cell) refuse_section(input, "stress", "needs a periodic cell: an isolated packing has no area");
+  if (!reading.known) refuse_section(input, "stress", "needs forces: this input has none");
+  const StressTensor s = measured_stress(packing);
+  const Coordination c = coordination(packing, reading);
+  const auto interactions = static_cast<double>(c.contacts + c.distant);
+  double sum = 0;
+  for (std::size_t l = 0; l < packing.links.size(); ++l)
+    if (c.counted[l]) sum += packing.links[l].normal_force;
+  nlohmann::ordered_json json;
+  json["tensor"] = {{s.xx, s.xy}, {s.yx, s.yy}};
+  json["pressure"] = 0.5 * (s.xx + s.yy);
+  json["rumpf_force"] =
+      rumpf_force(packing, 0.5 * (s.xx + s.yy), 2 * interactions / static_cast<double>(packing.bodies.size()));
+  json["mean_normal_force"] = interactions > 0 ? sum / interactions : kUndefined;
+  return json;
+}
+
+}  // namespace isostat

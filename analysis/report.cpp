@@ -1,0 +1,91 @@
+#include "analysis/report.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "analysis/network/sections.hpp"
+#include "analysis/version.hpp"
+#include "dem/input_error.hpp"
+
+namespace isostat {
+
+const std::vector<Section>& sections() {
+  static const std::vector<Section> table{
+      {"counts", counts_section, counts_tables}, {"equilibrium", equilibrium_section}, {"stress", stress_section},
+      {"forces", forces_section, forces_tables}, {"percolation", percolation_section},
+  };
+  return table;
+}
+
+NetworkLaw AnalysisInput::network_law(const AnalysisOptions& options) const {
+  if (options.law) return *options.law;
+  if (!state || !(state->law.normal_stiffness > 0)) return NetworkLaw::friction;
+  if (!(state->law.friction > 0)) return NetworkLaw::frictionless;
+  return state->law.rolling_friction > 0 ? NetworkLaw::rolling : NetworkLaw::friction;
+}
+
+const Packing<2>& AnalysisInput::planar(std::string_view section) const {
+  if (packing_3d) refuse_section(*this, section, "is defined for packings in the plane; this one is in 3D");
+  return packing;
+}
+
+void refuse_section(const AnalysisInput& input, std::string_view section, std::string why) {
+  throw InputError(input.path, 0, "--only", std::string(section), std::move(why));
+}
+
+std::vector<std::string> parse_section_names(const std::string& comma_separated) {
+  std::vector<std::string> names;
+  std::vector<Fault> faults;
+  std::string all;
+  for (const Section& s : sections()) all += (all.empty() ? "" : ", ") + std::string(s.name);
+  std::istringstream in(comma_separated);
+  for (std::string name; std::getline(in, name, ',');) {
+    const bool known =
+        std::any_of(sections().begin(), sections().end(), [&](const Section& s) { return s.name == name; });
+    if (!known) faults.push_back({"command line", 0, "--only", name, "names sections among: " + all});
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  if (!faults.empty()) throw InputError(std::move(faults));
+  return names;
+}
+
+namespace {
+
+// Lengths, masses and forces of the report are in these units; `si` appears when the scene maps the run to SI.
+nlohmann::ordered_json units_of(const AnalysisInput& input) {
+  if (!input.state || !(input.state->law.normal_stiffness > 0)) return {{"system", "of the input file"}};
+  const bool cohesive = input.state->law.attraction > 0;
+  nlohmann::ordered_json units{{"system", "reduced"},
+                               {"length", "a"},
+                               {"mass", "m"},
+                               {"force", cohesive ? "F0" : "a P"},
+                               {"time", cohesive ? "sqrt(m a / F0)" : "sqrt(m / P)"}};
+  if (const auto& si = input.state->scene.units)
+    units["si"] = {{"length_m", si->length}, {"density_kg_per_m2", si->density}, {"force_N", si->force}};
+  return units;
+}
+
+}  // namespace
+
+nlohmann::ordered_json analyze(const AnalysisInput& input, const AnalysisOptions& options,
+                               const std::vector<std::string>& only) {
+  nlohmann::ordered_json report;
+  report["isostat"] = version();
+  report["inputs"] = {input.path};
+  report["units"] = units_of(input);
+  for (const Section& section : sections()) {
+    if (only.empty()) {
+      try {
+        report[section.name] = section.compute(input, options);
+      } catch (const InputError&) {
+        report.erase(std::string(section.name));  // does not apply, and nobody asked for it by name
+      }
+    } else if (std::find(only.begin(), only.end(), section.name) != only.end()) {
+      report[section.name] = section.compute(input, options);
+    }
+  }
+  return report;
+}
+
+}  // namespace isostat
