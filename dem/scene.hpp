@@ -19,31 +19,35 @@ struct GrainsScene {
   double diameter_min = 0.5;     // [a]
   double diameter_max = 1.0;     // [a]
   std::string file;              // a state or .net file to start from instead; empty: random
+  friend bool operator==(const GrainsScene&, const GrainsScene&) = default;
 };
 
 // [law]: the interaction law, Gilabert 2007, Eqs. 4-10 and Table I.
 struct LawScene {
-  double normal_stiffness = 1e5;                 // K_N [F0/a]
-  std::optional<double> tangential_stiffness;    // K_T [F0/a], default K_N
-  double damping = 0.8;                          // zeta [-], fraction of the critical damping of the pair (Eq. 6)
-  double friction = 0.5;                         // mu [-]
-  bool rolling = true;                           // rolling resistance on
-  std::optional<double> rolling_friction;        // mu_r [a], default 0.01 mu a
-  std::optional<double> rolling_stiffness;       // K_r [F0 a], default 1e-4 a^2 K_N
-  double attraction = 1.0;                       // F0 [F0]; 0: no cohesion
-  double attraction_range = 1e-3;                // D0 [a]
+  double normal_stiffness = 1e5;               // K_N [F0/a]
+  std::optional<double> tangential_stiffness;  // K_T [F0/a], default K_N
+  double damping = 0.8;                        // zeta [-], fraction of the critical damping of the pair (Eq. 6)
+  double friction = 0.5;                       // mu [-]
+  bool rolling = true;                         // rolling resistance on
+  std::optional<double> rolling_friction;      // mu_r [a], default 0.01 mu a
+  std::optional<double> rolling_stiffness;     // K_r [F0 a], default 1e-4 a^2 K_N
+  double attraction = 1.0;                     // F0 [F0]; 0: no cohesion
+  double attraction_range = 1e-3;              // D0 [a]
+  friend bool operator==(const LawScene&, const LawScene&) = default;
 };
 
 // [step]: dt = fraction * sqrt(m_max / K_N).
 struct StepScene {
   double fraction = 0.06;  // c [-]
+  friend bool operator==(const StepScene&, const StepScene&) = default;
 };
 
 // [cell]: periodic cell and its barostat (Eq. 3).
 struct CellScene {
-  double inertia = 0.3;      // M in units of the sum of grain masses (PHYSICS.md: cell inertia)
-  double aspect = 1.0;       // [-] L1 / L2 of the initial cell
+  double inertia = 0.3;        // M in units of the sum of grain masses (PHYSICS.md: cell inertia)
+  double aspect = 1.0;         // [-] L1 / L2 of the initial cell
   bool rate_coupling = false;  // add -(Ldot/L) v to the peculiar acceleration
+  friend bool operator==(const CellScene&, const CellScene&) = default;
 };
 
 // [equilibrium]: Sec. II.D, in units of F1 = max(F0, a P).
@@ -51,6 +55,7 @@ struct EquilibriumScene {
   double force = 1e-4;           // [F1] net force on a grain; also [F1 a] net moment
   double pressure = 1e-4;        // [F1/a] imposed minus measured stress, each free direction
   double kinetic_energy = 5e-8;  // [F1 a] per grain
+  friend bool operator==(const EquilibriumScene&, const EquilibriumScene&) = default;
 };
 
 enum class Finish { none, drag };
@@ -58,28 +63,31 @@ enum class Finish { none, drag };
 // [finish]: what ends a stage faster than the bare law does; "none" is the paper.
 struct FinishScene {
   Finish method = Finish::none;
-  double drag = 0.5;           // [1/T0] rate of the global drag -drag * m * v
-  double quiet_time = 100.0;   // [T0] switch on when the set of contacts has not changed for so long,
-                               // or as soon as the kinetic criterion is met
+  double drag = 0.5;          // [1/T0] rate of the global drag -drag * m * v
+  double quiet_time = 100.0;  // [T0] switch on when the set of contacts has not changed for so long,
+                              // or as soon as the kinetic criterion is met
+  friend bool operator==(const FinishScene&, const FinishScene&) = default;
 };
 
 // [[stage]]: one step of the history of a sample.
 struct StageScene {
-  std::optional<double> pressure;    // P* [F0/a] stress applied in both directions; absent: fixed cell
-  double velocity = 0.0;             // V0 [V* = sqrt(F0 D0 / m)] rms velocity drawn at the start; 0: keep
-  double max_strain_rate = 0.05;     // [1/T0] cap of the cell's strain rate; 0: no cap
+  std::optional<double> pressure;     // P* [F0/a] stress applied in both directions; absent: fixed cell
+  double velocity = 0.0;              // V0 [V* = sqrt(F0 D0 / m)] rms velocity drawn at the start; 0: keep
+  double max_strain_rate = 0.05;      // [1/T0] cap of the cell's strain rate; 0: no cap
   std::string until = "equilibrium";  // or "time"
-  double time = 0.0;                 // [T0] length of the stage with until = "time"
-  double max_time = 20000.0;         // [T0] give up (exit code 3) after so long
+  double time = 0.0;                  // [T0] length of the stage with until = "time"
+  double max_time = 20000.0;          // [T0] give up (exit code 3) after so long
+  friend bool operator==(const StageScene&, const StageScene&) = default;
 };
 
 // [output]: observers; they read, they never touch the run.
 struct OutputScene {
-  std::string series;                 // CSV file of the time series; empty: none
-  double series_interval = 1.0;       // [T0]
-  bool energies = false;              // energy ledger in the series (costs a tally kernel)
+  std::string series;                            // CSV file of the time series; empty: none
+  double series_interval = 1.0;                  // [T0]
+  bool energies = false;                         // energy ledger in the series (costs a tally kernel)
   std::vector<double> snapshot_times;            // [T0]
   std::vector<double> snapshot_solid_fractions;  // [-]
+  friend bool operator==(const OutputScene&, const OutputScene&) = default;
 };
 
 // [units]: maps the reduced run to SI in reports; absent: reduced.
@@ -87,6 +95,7 @@ struct UnitsScene {
   double length = 1.0;   // a [m]
   double density = 1.0;  // mass per area of the disks [kg/m^2] (2D)
   double force = 1.0;    // F0 [N]
+  friend bool operator==(const UnitsScene&, const UnitsScene&) = default;
 };
 
 struct Scene {
@@ -100,6 +109,7 @@ struct Scene {
   std::vector<StageScene> stages;
   OutputScene output;
   std::optional<UnitsScene> units;
+  friend bool operator==(const Scene&, const Scene&) = default;
 };
 
 // The law with every default filled in: what kernels and analysis use. A zero means the axis is absent.
