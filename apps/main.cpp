@@ -1,1 +1,86 @@
-int main() { return 2; }
+// isostat COMMAND ...: dispatch, and the one place where exceptions become exit codes.
+#include <exception>
+#include <iostream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "analysis/version.hpp"
+#include "apps/arguments.hpp"
+#include "apps/commands.hpp"
+#include "dem/input_error.hpp"
+#include "dem/suggestion.hpp"
+
+namespace isostat {
+namespace {
+
+struct Command {
+  std::string_view name;
+  int (*run)(int argc, char** argv);
+  std::string_view purpose;
+};
+
+const std::vector<Command>& commands() {
+  static const std::vector<Command> list{};
+  return list;
+}
+
+void print_help(std::ostream& out) {
+  out << "Isostat " << version() << ": granular packings, and what holds them up.\n\nisostat COMMAND ...\n\n";
+  for (const Command& c : commands()) {
+    std::string head = "  " + std::string(c.name);
+    head.resize(12, ' ');
+    out << head << c.purpose << '\n';
+  }
+  out << "\nisostat COMMAND --help says more. Exit codes: 0 done, 2 bad input or usage, 3 a stage did not meet its "
+         "end,\n"
+         "4 internal error, 130 interrupted.\n";
+}
+
+int run(int argc, char** argv) {
+  if (argc < 2) {
+    print_help(std::cerr);
+    return exit_bad_input;
+  }
+  const std::string_view name = argv[1];
+  if (name == "--help" || name == "-h" || name == "help") {
+    print_help(std::cout);
+    return exit_done;
+  }
+  if (name == "--version") {
+    std::cout << "isostat " << version() << '\n';
+    return exit_done;
+  }
+  std::vector<std::string> names;
+  for (const Command& c : commands()) {
+    if (c.name == name) return c.run(argc - 1, argv + 1);
+    names.emplace_back(c.name);
+  }
+  std::string list;
+  for (const std::string& known : names) list += (list.empty() ? "" : ", ") + known;
+  const std::string hint = did_you_mean(name, names);
+  throw InputError("command line", 0, "", std::string(name),
+                   "unknown command; " + (hint.empty() ? std::string() : hint + " ") + "commands: " + list);
+}
+
+}  // namespace
+}  // namespace isostat
+
+int main(int argc, char** argv) {
+  using namespace isostat;
+  try {
+    const int code = run(argc, argv);
+    std::cout.flush();
+    if (code == exit_done && !std::cout) throw InputError("standard output", 0, "", "", "cannot be written");
+    return code;
+  } catch (const HelpRequest& help) {
+    std::cout << help.text;
+    return exit_done;
+  } catch (const InputError& error) {
+    std::cerr << "isostat: " << error.what() << '\n';
+    return exit_bad_input;
+  } catch (const std::exception& error) {
+    std::cerr << "isostat: internal error: " << error.what() << '\n';
+    return exit_internal;
+  }
+}
