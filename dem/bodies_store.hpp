@@ -21,6 +21,7 @@ struct BodiesStore {
   AlignedVector<double> rows;   // kernel::kRowWidth a body: x, y, u, v, R w, w, p, q
   AlignedVector<double> loads;  // kernel::kLoadWidth a body: Fx, Fy, A, B; moment = R A + B
   AlignedVector<BodyConstants> constants;
+  std::vector<double> inertia;  // [m a^2] as given: 1/(1/I) is not always I, and restarts are exact
 
   std::size_t size() const { return id.size(); }
   void resize(std::size_t n) {
@@ -29,6 +30,7 @@ struct BodiesStore {
     rows[(n + 1) * kernel::kRowWidth] = kFar;
     loads.assign((n + 2) * kernel::kLoadWidth, 0.0);
     constants.resize(n);
+    inertia.resize(n);
   }
   double* row(std::size_t k) { return rows.data() + k * kernel::kRowWidth; }
   const double* row(std::size_t k) const { return rows.data() + k * kernel::kRowWidth; }

@@ -3,7 +3,7 @@
 // so and is what the force kernels run over: little more than the true interactions.
 //
 // Bodies are cut into chunks of consecutive storage order, a number that depends on N only. Pairs inside a chunk,
-// pairs between a chunk and the next, and the rest go to segments of their own; segments of one phase touch disjoint
+// pairs between a chunk and the next, and the rest go to groups of their own; groups of one phase touch disjoint
 // bodies. So threads need no locks, and the order of every sum is the same for any number of threads.
 #pragma once
 #include <cstdint>
@@ -22,28 +22,29 @@ constexpr std::uint8_t image_code(const ImageShift<2>& s) { return static_cast<s
 constexpr ImageShift<2> image_shift(std::uint8_t code) { return {code % 3 - 1, code / 3 - 1}; }
 inline constexpr std::uint8_t kNoImage = 4;
 
-struct Segment {
-  std::size_t begin = 0, end = 0;  // multiples of kPairBatch
-  bool images = false;
+// Consecutive pairs that one thread runs through: first those inside the cell, then those across its edge.
+struct PairGroup {
+  std::size_t begin = 0, images = 0, end = 0;  // multiples of kPairBatch
 };
 
 class NeighbourLists {
  public:
-  // range: interaction beyond contact (D0) [a]; damping: zeta; stiffness: K_N, for the pairs' damping coefficients.
+  // range: interaction beyond contact (D0) [a]; damping: zeta; stiffness: K_N [F0/a], for the damping coefficients.
   NeighbourLists(std::size_t bodies, double range, double damping, double stiffness);
 
-  // Sorts bodies, wraps them into the cell, builds both lists and carries the histories over.
-  void rebuild_outer(BodiesStore& bodies, const PeriodicCell<2>& cell, double largest_displacement);
-  // Filters the inner list anew. largest_displacement [a]: how far a pair may move relative to itself in one step; it
-  // sizes the inner skin.
-  void rebuild_inner(const BodiesStore& bodies, const PeriodicCell<2>& cell, double largest_displacement);
+  // Sorts and wraps the bodies, finds the pairs and attaches the given histories; for the start of a run.
+  void build(BodiesStore& bodies, const PeriodicCell<2>& cell, std::vector<PairMemory> histories);
 
-  // What motion may have used of the skins since the rebuilds; pair_displacement [a] is this step's bound.
-  bool needs_inner(double pair_displacement) { return (inner_travel_ += pair_displacement) > inner_skin_; }
-  bool needs_outer(double pair_displacement) { return (outer_travel_ += pair_displacement) > outer_skin_ - inner_skin_; }
+  // Once a step: pair_displacement [a] bounds how far two neighbours moved relative to each other in it. Rebuilds what
+  // must be rebuilt; throws std::runtime_error if the cell has become smaller than an interaction.
+  void update(BodiesStore& bodies, const PeriodicCell<2>& cell, double pair_displacement) {
+    inner_travel_ += pair_displacement;
+    outer_travel_ += pair_displacement;
+    if (!(inner_travel_ <= inner_skin_)) rebuild(bodies, cell, pair_displacement);
+  }
 
   PairArrays arrays();
-  const std::vector<Segment>& phase(int p) const { return phases_[p]; }  // 0: chunks, 1-2: between, 3: the rest
+  const std::vector<PairGroup>& phase(int p) const { return phases_[p]; }  // 0: chunks, 1-2: between, 3: the rest
   static constexpr int kPhases = 4;
   static int chunk_count(std::size_t bodies);
   int chunks() const { return chunks_; }
@@ -69,17 +70,20 @@ class NeighbourLists {
     std::uint8_t shift;
     double tangential, moment;
   };
+  void rebuild(BodiesStore& bodies, const PeriodicCell<2>& cell, double pair_displacement);
   void sort_bodies(BodiesStore& bodies, const PeriodicCell<2>& cell, std::vector<PairMemory>& histories);
-  void find_outer(const std::vector<Vec2>& positions, const std::vector<double>& radii, const PeriodicCell<2>& cell);
-  void filter_inner(const BodiesStore& bodies, const std::vector<Vec2>& positions, const PeriodicCell<2>& cell);
-  void set_histories(const std::vector<PairMemory>& histories);
+  void find_outer(const BodiesStore& bodies);
+  void filter_inner(const BodiesStore& bodies, const std::vector<PairMemory>& histories);
   std::vector<PairMemory> histories() const;
+  double inner_skin_for(double pair_displacement) const;
+  std::size_t segment_of(std::int32_t i, std::int32_t j, std::uint8_t shift) const;
   int chunk_of(std::int32_t body) const;
 
   std::size_t bodies_;
   int chunks_;
+  double smallest_diameter_ = 0, largest_diameter_ = 0, mean_diameter_ = 0;  // [a]
   double range_, damping_, stiffness_;
-  double outer_skin_ = 0, inner_skin_ = 0, outer_travel_ = 0, inner_travel_ = 0;  // [a]
+  double outer_skin_ = 0, inner_skin_ = -1, outer_travel_ = 0, inner_travel_ = 0;  // [a]
   std::size_t inner_rebuilds_ = 0, outer_rebuilds_ = 0;
 
   std::vector<Vec2> outer_position_, inner_position_;
@@ -90,9 +94,7 @@ class NeighbourLists {
   AlignedVector<std::int32_t> i_, j_;
   AlignedVector<std::uint8_t> shift_;
   AlignedVector<double> damping_coefficient_, radius_sum_, tangential_, moment_;
-  std::vector<Segment> phases_[kPhases];
-  std::vector<History> history_;            // by body i, while a list is rebuilt
-  std::vector<std::int32_t> history_begin_;
+  std::vector<PairGroup> phases_[kPhases];
 };
 
 }  // namespace isostat

@@ -1,0 +1,217 @@
+#include "dem/protocol.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <numbers>
+
+#include "dem/random.hpp"
+
+namespace isostat {
+namespace {
+
+double solid_fraction(const Bodies<2>& b, const PeriodicCell<2>& cell) {
+  double area = 0;
+  for (double r : b.radius) area += std::numbers::pi * r * r;
+  return area / cell.measure();
+}
+
+double thread_cpu_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+// Order-independent hash of the set of contacts, by grain ids.
+std::uint64_t contact_set_hash(const Packing<2>& p) {
+  auto mix = [](std::uint64_t x) {
+    x = (x ^ (x >> 31)) * 0x9E3779B97F4A7C15u;
+    x = (x ^ (x >> 29)) * 0xBF58476D1CE4E5B9u;
+    return x ^ (x >> 32);
+  };
+  std::uint64_t sum = 0;
+  for (const Link<2>& l : p.links) {
+    if (l.kind == LinkKind::distant) continue;
+    const auto i = static_cast<std::uint64_t>(p.bodies.id[static_cast<std::size_t>(l.i)]);
+    const auto j = static_cast<std::uint64_t>(p.bodies.id[static_cast<std::size_t>(l.j)]);
+    sum += mix(mix(std::min(i, j)) + std::max(i, j));
+  }
+  return sum;
+}
+
+// Maxwell velocities with the drift of the centre of mass removed and the rms of |v| equal to V0; spins zero.
+void agitate(State& s, double rms) {
+  Bodies<2>& b = s.packing.bodies;
+  Random random(s.seed, s.random_counter);
+  // Drawn in the order of the ids: storage order is the solver's business.
+  std::vector<std::size_t> order(b.size());
+  for (std::size_t k = 0; k < b.size(); ++k) order[k] = k;
+  std::sort(order.begin(), order.end(), [&](std::size_t p, std::size_t q) { return b.id[p] < b.id[q]; });
+  Vec2 momentum{};
+  double mass = 0;
+  for (std::size_t k : order) {
+    b.velocity[k] = {{random.normal(), random.normal()}};
+    momentum += b.mass[k] * b.velocity[k];
+    mass += b.mass[k];
+  }
+  double sum = 0;
+  for (std::size_t k : order) {
+    b.velocity[k] -= (1 / mass) * momentum;
+    sum += dot(b.velocity[k], b.velocity[k]);
+  }
+  const double scale = sum > 0 ? rms / std::sqrt(sum / static_cast<double>(b.size())) : 0.0;
+  for (std::size_t k = 0; k < b.size(); ++k) {
+    b.velocity[k] = scale * b.velocity[k];
+    b.spin[k] = 0;
+    if (!s.memory.half_velocity.empty()) {
+      s.memory.half_velocity[k] = b.velocity[k] - (0.5 * s.time_step / b.mass[k]) * s.memory.force[k];
+      s.memory.half_spin[k] = -0.5 * s.time_step * s.memory.torque[k] / b.inertia[k];
+    }
+  }
+  s.random_counter = random.counter();
+}
+
+// The opening actions of a stage.
+void open_stage(State& s, const StageScene& stage) {
+  s.progress.started = true;
+  s.progress.start_time = s.time;
+  s.progress.drag_on = false;
+  s.progress.contacts_changed_at = s.time;
+  s.cell_motion.reference_length = s.packing.cell->length;
+  s.cell_motion.strain_rate = {};
+  s.imposed_pressure = stage.pressure;
+  if (stage.velocity > 0) agitate(s, stage.velocity * std::sqrt(s.law.attraction * s.law.attraction_range));
+}
+
+CellControl cell_control(const State& s, const StageScene& stage) {
+  CellControl c;
+  c.pressure = stage.pressure;
+  c.max_strain_rate = stage.max_strain_rate;
+  double mass = 0;
+  for (double m : s.packing.bodies.mass) mass += m;
+  c.inertia = s.scene.cell.inertia * mass;
+  c.rate_coupling = s.scene.cell.rate_coupling;
+  return c;
+}
+
+// Steps between two looks at the packing: half a T0, within reason. A look costs about as much as ten steps.
+std::int64_t check_interval(double time_step) {
+  return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::lround(0.5 / time_step)), 200, 2000);
+}
+
+// One stage from wherever it stands to its end.
+class StageRun {
+ public:
+  StageRun(State& state, const SolverOptions& options, const RunHooks& hooks)
+      : s_(state), stage_(state.scene.stages[static_cast<std::size_t>(state.progress.stage)]), hooks_(hooks),
+        solver_(state, cell_control(state, stage_), options), interval_(check_interval(state.time_step)) {
+    if (s_.progress.drag_on) solver_.set_drag(s_.scene.finish.drag);
+  }
+
+  // True when the stage is over; false when it was interrupted.
+  bool run(StageOutcome& outcome, double wall_deadline) {
+    const double until_time = stage_.until == "time" ? s_.progress.start_time + stage_.time : INFINITY;
+    for (;;) {
+      if (look(outcome)) return true;
+      if ((hooks_.interrupted && hooks_.interrupted()) || wall_seconds() > wall_deadline) return false;
+      std::int64_t steps = interval_ - solver_.steps() % interval_;
+      if (std::isfinite(until_time))
+        steps = std::min(steps, std::max<std::int64_t>(1, std::llround((until_time - solver_.time()) / s_.time_step)));
+      solver_.run(steps);
+    }
+  }
+  const Solver& solver() const { return solver_; }
+  static double wall_seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  }
+
+ private:
+  // Everything that is decided about a run is decided here, at fixed steps, whoever watches.
+  bool look(StageOutcome& outcome) {
+    solver_.check_sanity();
+    solver_.snapshot(s_);
+    const std::string finishing = s_.certificate.finishing;
+    s_.certificate = evaluate_certificate(s_.packing, s_.law, s_.imposed_pressure, s_.scene.equilibrium);
+    s_.certificate.finishing = s_.progress.drag_on ? "drag" : finishing;
+    const WorstCriterion worst = worst_criterion(s_.certificate);
+    if (hooks_.progress)
+      hooks_.progress({s_.progress.stage, s_.time, solid_fraction(s_.packing.bodies, *s_.packing.cell), worst,
+                       &s_.certificate});
+    if (hooks_.observe && hooks_.observe_interval > 0 && s_.time >= next_observation_) {
+      hooks_.observe(s_);
+      next_observation_ = s_.time + hooks_.observe_interval;
+    }
+    const double elapsed = s_.time - s_.progress.start_time;
+    if (stage_.until == "time") {
+      outcome = {s_.progress.stage, true, s_.time, "time"};
+      return elapsed >= stage_.time - 0.5 * s_.time_step;
+    }
+    if (s_.certificate.equilibrated) {
+      outcome = {s_.progress.stage, true, s_.time, "equilibrium"};
+      return true;
+    }
+    if (elapsed >= stage_.max_time) {
+      outcome = {s_.progress.stage, false, s_.time,
+                 "not in equilibrium after stage.max_time = " + std::to_string(stage_.max_time) + " T0: " + worst.name +
+                     " is " + std::to_string(worst.ratio) +
+                     " times its tolerance; raise stage.max_time or set finish.method = \"drag\""};
+      return true;
+    }
+    update_drag();
+    return false;
+  }
+
+  // The finishing drag comes on when only creep is left: the kinetic criterion is met, or the contacts have not
+  // changed for finish.quiet_time.
+  void update_drag() {
+    const std::uint64_t hash = contact_set_hash(s_.packing);
+    if (hash != s_.progress.contacts_hash) s_.progress.contacts_hash = hash, s_.progress.contacts_changed_at = s_.time;
+    if (s_.scene.finish.method != Finish::drag || s_.progress.drag_on || s_.packing.links.empty()) return;
+    const bool slow = s_.certificate.kinetic_energy_per_grain < s_.certificate.tolerance_kinetic;
+    const bool quiet = s_.time - s_.progress.contacts_changed_at >= s_.scene.finish.quiet_time;
+    if (!slow && !quiet) return;
+    s_.progress.drag_on = true;
+    solver_.set_drag(s_.scene.finish.drag);
+  }
+
+  State& s_;
+  const StageScene& stage_;
+  const RunHooks& hooks_;
+  Solver solver_;
+  std::int64_t interval_;
+  double next_observation_ = -INFINITY;
+};
+
+}  // namespace
+
+bool RunOutcome::all_met() const {
+  return std::all_of(stages.begin(), stages.end(), [](const StageOutcome& s) { return s.met; });
+}
+
+RunOutcome run_stages(State& state, const SolverOptions& options, const RunHooks& hooks) {
+  RunOutcome outcome;
+  const double wall_start = StageRun::wall_seconds(), cpu_start = thread_cpu_seconds();
+  const double deadline = hooks.max_wall_seconds > 0 ? wall_start + hooks.max_wall_seconds : INFINITY;
+  const auto stages = static_cast<std::int32_t>(state.scene.stages.size());
+  const std::int64_t first_step = state.step;
+  while (state.progress.stage < stages && !outcome.interrupted) {
+    if (!state.progress.started) open_stage(state, state.scene.stages[static_cast<std::size_t>(state.progress.stage)]);
+    StageRun run(state, options, hooks);
+    StageOutcome stage;
+    if (run.run(stage, deadline)) {
+      outcome.stages.push_back(stage);
+      ++state.progress.stage;
+      state.progress.started = false;
+    } else {
+      outcome.interrupted = true;
+    }
+    outcome.times += run.solver().times();
+  }
+  outcome.steps = state.step - first_step;
+  outcome.wall_seconds = StageRun::wall_seconds() - wall_start;
+  outcome.cpu_seconds = thread_cpu_seconds() - cpu_start;
+  return outcome;
+}
+
+}  // namespace isostat

@@ -1,0 +1,53 @@
+// Runs the stages of a scene one after the other, each to its own end.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "dem/equilibrium.hpp"
+#include "dem/solver.hpp"
+#include "dem/state.hpp"
+
+namespace isostat {
+
+// What an observer may see while a stage runs.
+struct Progress {
+  std::int32_t stage = 0;
+  double time = 0;             // [T0]
+  double solid_fraction = 0;
+  WorstCriterion last;         // the equilibrium criterion furthest from being met
+  const Certificate* certificate = nullptr;
+};
+
+struct RunHooks {
+  std::function<bool()> interrupted;              // polled at every check; true: stop resumably
+  std::function<void(const Progress&)> progress;  // at every check
+  std::function<void(const State&)> observe;      // a snapshot, every observe_interval
+  double observe_interval = 0;                    // [T0]; 0: never
+  std::function<void(const State&)> checkpoint;   // a resumable snapshot, every checkpoint_seconds of wall time
+  double checkpoint_seconds = 0;                  // 0: never
+  double max_wall_seconds = 0;                    // 0: no limit
+};
+
+struct StageOutcome {
+  std::int32_t stage = 0;
+  bool met = false;        // its own end was reached
+  double time = 0;         // [T0] at the end
+  std::string reason;      // what ended it, or what is missing and the key to turn
+};
+
+struct RunOutcome {
+  std::vector<StageOutcome> stages;
+  bool interrupted = false;  // by the hook or the wall-time limit; the state is resumable
+  std::int64_t steps = 0;    // of this run
+  StepTimes times;
+  double cpu_seconds = 0, wall_seconds = 0;  // stepping only
+  bool all_met() const;
+};
+
+// Goes on from wherever state.progress stands, to the end of the last stage. The state is left at the last instant
+// with its certificate. Throws RunError if the run blows up, after leaving the last sane snapshot in `state`.
+RunOutcome run_stages(State& state, const SolverOptions& options, const RunHooks& hooks);
+
+}  // namespace isostat

@@ -1,0 +1,196 @@
+#include "dem/solver.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "dem/equilibrium.hpp"
+#include "dem/link.hpp"
+#include "dem/run_error.hpp"
+
+namespace isostat {
+namespace {
+
+constexpr double kMostMove = 0.1;      // [smallest diameter] in one step: beyond, the run has blown up
+constexpr double kMostOverlap = 0.5;   // [R_i + R_j]
+constexpr std::int64_t kTimedEvery = 64;  // reading the clock at every stage of every step would cost a few per cent
+
+using Clock = std::chrono::steady_clock;
+
+// Adds the time since the last mark to a stage, on the steps that are timed.
+class StageClock {
+ public:
+  StageClock(StepTimes& times, bool on) : times_(times), on_(on) {
+    if (on_) last_ = Clock::now();
+  }
+  void mark(std::size_t stage) {
+    if (!on_) return;
+    const auto now = Clock::now();
+    times_.seconds[stage] += std::chrono::duration<double>(now - last_).count() * static_cast<double>(kTimedEvery);
+    last_ = now;
+  }
+
+ private:
+  StepTimes& times_;
+  bool on_;
+  Clock::time_point last_;
+};
+
+}  // namespace
+
+Solver::Solver(const State& state, const CellControl& control, SolverOptions options)
+    : law_(state.law),
+      control_(control),
+      dt_(state.time_step),
+      time_(state.time),
+      step_(state.step),
+      cell_(state.packing.cell.value()),
+      cell_motion_(state.cell_motion),
+      ledger_(state.ledger),
+      energies_(options.energies),
+      rotates_(law_.friction > 0 || law_.rolling_friction > 0),
+      force_kernel_(select_kernel(law_,
+                                  options.energies   ? Tally::energy
+                                  : control.pressure ? Tally::stress
+                                                     : Tally::nothing,
+                                  options.isa)),
+      motion_kernel_(select_motion({rotates_, control.pressure.has_value()})),
+      team_(std::min(options.threads, NeighbourLists::chunk_count(state.packing.bodies.size()))),
+      lists_(state.packing.bodies.size(), law_.attraction_range, law_.damping, law_.normal_stiffness) {
+  load_bodies(state);
+  motion_tallies_.resize(static_cast<std::size_t>(lists_.chunks()));
+  if (state.memory.half_velocity.empty()) {
+    compute_forces(0.0);
+    for (std::size_t k = 0; k < bodies_.size(); ++k) {
+      double *row = bodies_.row(k), *load = bodies_.load(k);
+      const BodyConstants& c = bodies_.constants[k];
+      row[2] -= 0.5 * dt_ * load[0] * c.inverse_mass;
+      row[3] -= 0.5 * dt_ * load[1] * c.inverse_mass;
+      row[5] -= 0.5 * dt_ * (c.radius * load[2] + load[3]) * c.inverse_inertia;
+      row[4] = c.radius * row[5];
+    }
+    measure_stress();
+  }
+}
+
+void Solver::step() {
+  StageClock clock(times_, step_ % kTimedEvery == 0);
+  const double displacement = advance_bodies();
+  clock.mark(0);
+  lists_.update(bodies_, cell_, displacement);
+  clock.mark(1);
+  compute_forces(dt_);
+  clock.mark(2);
+  measure_stress();
+  clock.mark(3);
+  time_ += dt_;
+  ++step_;
+}
+
+double Solver::advance_bodies() {
+  MotionStep step;
+  step.time_step = dt_;
+  step.keep[0] = step.keep[1] = step.keep_spin = 1 - drag_ * dt_;
+  if (energies_ && drag_ > 0) drag_ledger();
+  double affine = 0;
+  if (control_.pressure) {
+    flow_ = advance_cell(control_, dt_, cell_motion_, cell_, step);
+    affine = std::max(std::abs(step.scale[0] - 1), std::abs(step.scale[1] - 1));
+  }
+
+  team_.run(lists_.chunks(), [&](int chunk) {
+    motion_tallies_[static_cast<std::size_t>(chunk)] =
+        motion_kernel_(bodies_, lists_.chunk_begin(chunk), lists_.chunk_begin(chunk + 1), step);
+  });
+  motion_tally_ = {};
+  for (const MotionTally& t : motion_tallies_) {
+    motion_tally_.largest_speed_squared = std::max(motion_tally_.largest_speed_squared, t.largest_speed_squared);
+    motion_tally_.kinetic[0] += t.kinetic[0], motion_tally_.kinetic[1] += t.kinetic[1];
+  }
+  const double move = dt_ * std::sqrt(motion_tally_.largest_speed_squared);
+  if (!(move <= kMostMove * smallest_diameter_) || !(affine <= kMostMove)) check_sanity();
+  // Listed neighbours are nearer than two diameters; 1.01 covers the rescaling of the peculiar move.
+  return 1.01 * (2 * move + affine * 2 * largest_diameter_);
+}
+
+void Solver::compute_forces(double time_step) {
+  PairForceInput in;
+  in.rows = bodies_.rows.data();
+  in.loads = bodies_.loads.data();
+  in.pairs = lists_.arrays();
+  in.law = law_;
+  in.time_step = time_step;
+  for (int a = 0; a < 2; ++a) in.flow_half[a] = flow_.half[a], in.flow_now[a] = flow_.now[a];
+  for (std::uint8_t code = 0; code < 9; ++code) {
+    const Vec2 offset = cell_.offset(image_shift(code));
+    in.offsets[code][0] = offset[0], in.offsets[code][1] = offset[1];
+  }
+  force_tally_ = {};
+  for (int phase = 0; phase < NeighbourLists::kPhases; ++phase) {
+    const std::vector<PairGroup>& groups = lists_.phase(phase);
+    force_tallies_.assign(groups.size(), {});
+    team_.run(static_cast<int>(groups.size()), [&](int g) {
+      const PairGroup& group = groups[static_cast<std::size_t>(g)];
+      PairForceTally& tally = force_tallies_[static_cast<std::size_t>(g)];
+      PairForceInput part = in;
+      part.begin = group.begin, part.end = group.images, part.images = false;
+      if (part.begin < part.end) tally += force_kernel_(part);
+      part.begin = group.images, part.end = group.end, part.images = true;
+      if (part.begin < part.end) tally += force_kernel_(part);
+    });
+    for (const PairForceTally& t : force_tallies_) force_tally_ += t;
+  }
+}
+
+// sigma_aa = (1/A) [sum m v_a^2 + sum over pairs F_a r_a], each pair once, compression positive.
+void Solver::measure_stress() {
+  if (!control_.pressure && !energies_) return;
+  const double area = cell_.measure();
+  for (int a = 0; a < 2; ++a) {
+    const double power = force_tally_.virial[a] * -flow_.half[a];
+    cell_motion_.stress[a] = (motion_tally_.kinetic[a] + force_tally_.virial[a]) / area;
+    if (energies_) ledger_.cell_work += power * dt_;
+  }
+  if (energies_) {
+    ledger_.viscous += force_tally_.viscous;
+    ledger_.sliding += force_tally_.sliding;
+    ledger_.rolling += force_tally_.rolling;
+  }
+}
+
+void Solver::drag_ledger() {
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    const double* row = bodies_.row(k);
+    const BodyConstants& c = bodies_.constants[k];
+    const double twice = c.mass * (row[2] * row[2] + row[3] * row[3]) +
+                         (c.inverse_inertia > 0 ? row[5] * row[5] / c.inverse_inertia : 0.0);
+    ledger_.drag += twice * drag_ * dt_;
+  }
+}
+
+void Solver::check_sanity() const {
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    const double* row = bodies_.row(k);
+    const double move = dt_ * std::hypot(row[2], row[3]);
+    if (!std::isfinite(row[0] + row[1] + row[2] + row[3] + row[5]))
+      throw RunError(step_, bodies_.id[k], "its position or velocity is not a number", "lower step.fraction");
+    if (!(move <= kMostMove * smallest_diameter_))
+      throw RunError(step_, bodies_.id[k], "it moves " + std::to_string(move) + " a in one step",
+                     "lower step.fraction or stage.velocity");
+  }
+  for (int a = 0; a < 2; ++a)
+    if (!(std::abs(cell_motion_.strain_rate[a]) * dt_ <= kMostMove) || !(cell_.length[a] > 0))
+      throw RunError(step_, -1, "the cell collapses, L" + std::to_string(a + 1) + " = " + std::to_string(cell_.length[a]),
+                     "set stage.max_strain_rate, raise cell.inertia or lower stage.pressure");
+  lists_.for_each([&](std::int32_t i, std::int32_t j, std::uint8_t shift, double, double) {
+    const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+    const double sum = bodies_.constants[a].radius + bodies_.constants[b].radius;
+    const double distance = norm(bodies_.position(b) + cell_.offset(image_shift(shift)) - bodies_.position(a));
+    if (distance < (1 - kMostOverlap) * sum)
+      throw RunError(step_, bodies_.id[a],
+                     "it overlaps grain " + std::to_string(bodies_.id[b]) + " by " + std::to_string(sum - distance) + " a",
+                     "raise law.normal_stiffness or lower stage.pressure");
+  });
+}
+
+}  // namespace isostat
