@@ -17,7 +17,7 @@ double solid_fraction(const Bodies<2>& b, const PeriodicCell<2>& cell) {
   return area / cell.measure();
 }
 
-double thread_cpu_seconds() {
+double process_cpu_seconds() {
   timespec t{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
@@ -100,65 +100,121 @@ std::int64_t check_interval(double time_step) {
   return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::lround(0.5 / time_step)), 200, 2000);
 }
 
+double wall_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+constexpr std::int64_t kGrainStepsPerSlice = 10'000'000;  // about a tenth of a second between polls
+
 // One stage from wherever it stands to its end.
 class StageRun {
  public:
   StageRun(State& state, const SolverOptions& options, const RunHooks& hooks)
       : s_(state), stage_(state.scene.stages[static_cast<std::size_t>(state.progress.stage)]), hooks_(hooks),
-        solver_(state, cell_control(state, stage_), options), interval_(check_interval(state.time_step)) {
+        solver_(state, cell_control(state, stage_), options), interval_(check_interval(state.time_step)),
+        slice_(std::max<std::int64_t>(1, kGrainStepsPerSlice / static_cast<std::int64_t>(state.packing.bodies.size()))),
+        last_checkpoint_(wall_seconds()) {
     if (s_.progress.drag_on) solver_.set_drag(s_.scene.finish.drag);
+    last_observation_ = std::floor(s_.time / hooks_.observe_interval);
+    solid_fraction_before_ = solid_fraction(s_.packing.bodies, solver_.cell());
   }
 
   // True when the stage is over; false when it was interrupted.
-  bool run(StageOutcome& outcome, double wall_deadline) {
-    const double until_time = stage_.until == "time" ? s_.progress.start_time + stage_.time : INFINITY;
+  bool run(StageOutcome& outcome) {
     for (;;) {
-      if (look(outcome)) return true;
-      if ((hooks_.interrupted && hooks_.interrupted()) || wall_seconds() > wall_deadline) return false;
-      std::int64_t steps = interval_ - solver_.steps() % interval_;
-      if (std::isfinite(until_time))
-        steps = std::min(steps, std::max<std::int64_t>(1, std::llround((until_time - solver_.time()) / s_.time_step)));
-      solver_.run(steps);
+      if (solver_.steps() % interval_ == 0 || at_end()) {
+        look();
+        if (over(outcome)) return true;
+        update_drag();
+      }
+      if (hooks_.interrupted && hooks_.interrupted()) {
+        solver_.snapshot(s_);
+        return false;
+      }
+      solver_.run(steps_to_next_stop());
+      observe();
     }
   }
   const Solver& solver() const { return solver_; }
-  static double wall_seconds() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-  }
 
  private:
-  // Everything that is decided about a run is decided here, at fixed steps, whoever watches.
-  bool look(StageOutcome& outcome) {
+  double end_time() const { return stage_.until == "time" ? s_.progress.start_time + stage_.time : INFINITY; }
+  bool at_end() const { return solver_.time() >= end_time() - 0.5 * s_.time_step; }
+
+  std::int64_t steps_to_next_stop() const {
+    std::int64_t steps = std::min(slice_, interval_ - solver_.steps() % interval_);
+    double stop = end_time();
+    if (hooks_.observe && hooks_.observe_interval > 0)
+      stop = std::min(stop, (last_observation_ + 1) * hooks_.observe_interval);
+    if (hooks_.snapshot)
+      for (double t : s_.scene.output.snapshot_times)
+        if (t > solver_.time() + 0.5 * s_.time_step) stop = std::min(stop, t);
+    if (std::isfinite(stop))
+      steps = std::clamp<std::int64_t>(std::llround((stop - solver_.time()) / s_.time_step), 1, steps);
+    return steps;
+  }
+
+  // Observers, at whatever step they ask for.
+  void observe() {
+    const double half = 0.5 * s_.time_step;
+    if (hooks_.observe && hooks_.observe_interval > 0 &&
+        solver_.time() + half >= (last_observation_ + 1) * hooks_.observe_interval) {
+      last_observation_ = std::floor((solver_.time() + half) / hooks_.observe_interval);
+      solver_.snapshot(s_);
+      certify();
+      hooks_.observe(s_);
+    }
+    if (hooks_.snapshot) {
+      const double now = solid_fraction(s_.packing.bodies, solver_.cell());
+      bool wanted = false;
+      for (double phi : s_.scene.output.snapshot_solid_fractions)
+        wanted = wanted || (phi - solid_fraction_before_) * (phi - now) <= 0;
+      for (double t : s_.scene.output.snapshot_times) wanted = wanted || std::abs(t - solver_.time()) <= half;
+      solid_fraction_before_ = now;
+      if (wanted) {
+        solver_.snapshot(s_);
+        certify();
+        hooks_.snapshot(s_);
+      }
+    }
+  }
+
+  void certify() {
+    const std::string finishing = s_.progress.drag_on ? "drag" : s_.certificate.finishing;
+    s_.certificate = evaluate_certificate(s_.packing, s_.law, s_.imposed_pressure, s_.scene.equilibrium);
+    s_.certificate.finishing = finishing;
+  }
+
+  void look() {
     solver_.check_sanity();
     solver_.snapshot(s_);
-    const std::string finishing = s_.certificate.finishing;
-    s_.certificate = evaluate_certificate(s_.packing, s_.law, s_.imposed_pressure, s_.scene.equilibrium);
-    s_.certificate.finishing = s_.progress.drag_on ? "drag" : finishing;
-    const WorstCriterion worst = worst_criterion(s_.certificate);
+    certify();
     if (hooks_.progress)
-      hooks_.progress({s_.progress.stage, s_.time, solid_fraction(s_.packing.bodies, *s_.packing.cell), worst,
-                       &s_.certificate});
-    if (hooks_.observe && hooks_.observe_interval > 0 && s_.time >= next_observation_) {
-      hooks_.observe(s_);
-      next_observation_ = s_.time + hooks_.observe_interval;
+      hooks_.progress({s_.progress.stage, s_.time, solid_fraction(s_.packing.bodies, *s_.packing.cell),
+                       worst_criterion(s_.certificate), &s_.certificate});
+    if (hooks_.checkpoint && hooks_.checkpoint_seconds > 0 &&
+        wall_seconds() - last_checkpoint_ > hooks_.checkpoint_seconds) {
+      hooks_.checkpoint(s_);
+      last_checkpoint_ = wall_seconds();
     }
-    const double elapsed = s_.time - s_.progress.start_time;
-    if (stage_.until == "time") {
-      outcome = {s_.progress.stage, true, s_.time, "time"};
-      return elapsed >= stage_.time - 0.5 * s_.time_step;
-    }
-    if (s_.certificate.equilibrated) {
-      outcome = {s_.progress.stage, true, s_.time, "equilibrium"};
+  }
+
+  // Everything that is decided about a run is decided here, at fixed steps, whoever watches.
+  bool over(StageOutcome& outcome) const {
+    outcome = {s_.progress.stage, true, s_.time, stage_.until};
+    if (stage_.until == "time" ? at_end() : s_.certificate.equilibrated) return true;
+    outcome.met = false;
+    const WorstCriterion worst = worst_criterion(s_.certificate);
+    const std::string missing = worst.name + " is " + std::to_string(worst.ratio) + " times its tolerance";
+    if (hooks_.max_time > 0 && s_.time >= hooks_.max_time) {
+      outcome.reason = "stopped by --max-time " + std::to_string(hooks_.max_time) + " T0: " + missing;
       return true;
     }
-    if (elapsed >= stage_.max_time) {
-      outcome = {s_.progress.stage, false, s_.time,
-                 "not in equilibrium after stage.max_time = " + std::to_string(stage_.max_time) + " T0: " + worst.name +
-                     " is " + std::to_string(worst.ratio) +
-                     " times its tolerance; raise stage.max_time or set finish.method = \"drag\""};
+    if (stage_.until != "time" && s_.time - s_.progress.start_time >= stage_.max_time) {
+      outcome.reason = "not in equilibrium after stage.max_time = " + std::to_string(stage_.max_time) + " T0: " +
+                       missing + "; raise stage.max_time or set finish.method = \"drag\"";
       return true;
     }
-    update_drag();
     return false;
   }
 
@@ -179,8 +235,10 @@ class StageRun {
   const StageScene& stage_;
   const RunHooks& hooks_;
   Solver solver_;
-  std::int64_t interval_;
-  double next_observation_ = -INFINITY;
+  std::int64_t interval_, slice_;
+  double last_observation_ = 0;  // [observe_interval]
+  double solid_fraction_before_ = 0;
+  double last_checkpoint_;
 };
 
 }  // namespace
@@ -191,26 +249,24 @@ bool RunOutcome::all_met() const {
 
 RunOutcome run_stages(State& state, const SolverOptions& options, const RunHooks& hooks) {
   RunOutcome outcome;
-  const double wall_start = StageRun::wall_seconds(), cpu_start = thread_cpu_seconds();
-  const double deadline = hooks.max_wall_seconds > 0 ? wall_start + hooks.max_wall_seconds : INFINITY;
+  const double wall_start = wall_seconds(), cpu_start = process_cpu_seconds();
   const auto stages = static_cast<std::int32_t>(state.scene.stages.size());
   const std::int64_t first_step = state.step;
-  while (state.progress.stage < stages && !outcome.interrupted) {
+  while (state.progress.stage < stages) {
     if (!state.progress.started) open_stage(state, state.scene.stages[static_cast<std::size_t>(state.progress.stage)]);
     StageRun run(state, options, hooks);
     StageOutcome stage;
-    if (run.run(stage, deadline)) {
-      outcome.stages.push_back(stage);
-      ++state.progress.stage;
-      state.progress.started = false;
-    } else {
-      outcome.interrupted = true;
-    }
+    outcome.interrupted = !run.run(stage);
     outcome.times += run.solver().times();
+    if (outcome.interrupted) break;
+    outcome.stages.push_back(stage);
+    ++state.progress.stage;
+    state.progress.started = false;
+    if (hooks.max_time > 0 && state.time >= hooks.max_time) break;
   }
   outcome.steps = state.step - first_step;
-  outcome.wall_seconds = StageRun::wall_seconds() - wall_start;
-  outcome.cpu_seconds = thread_cpu_seconds() - cpu_start;
+  outcome.wall_seconds = wall_seconds() - wall_start;
+  outcome.cpu_seconds = process_cpu_seconds() - cpu_start;
   return outcome;
 }
 

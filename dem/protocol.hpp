@@ -20,14 +20,16 @@ struct Progress {
   const Certificate* certificate = nullptr;
 };
 
+// Observers read; nothing they ask for changes the run.
 struct RunHooks {
-  std::function<bool()> interrupted;              // polled at every check; true: stop resumably
-  std::function<void(const Progress&)> progress;  // at every check
-  std::function<void(const State&)> observe;      // a snapshot, every observe_interval
-  double observe_interval = 0;                    // [T0]; 0: never
-  std::function<void(const State&)> checkpoint;   // a resumable snapshot, every checkpoint_seconds of wall time
+  std::function<bool()> interrupted;              // polled a few times a second; true: stop resumably
+  std::function<void(const Progress&)> progress;  // at every look at the packing
+  std::function<void(const State&)> observe;      // at multiples of observe_interval [T0]
+  double observe_interval = 0;                    // 0: never
+  std::function<void(const State&)> snapshot;     // at the scene's output.snapshot_times and _solid_fractions
+  std::function<void(const State&)> checkpoint;   // resumable, every checkpoint_seconds of wall time
   double checkpoint_seconds = 0;                  // 0: never
-  double max_wall_seconds = 0;                    // 0: no limit
+  double max_time = 0;                            // [T0] of the whole run; 0: no limit. Stages left then are not met.
 };
 
 struct StageOutcome {
@@ -39,7 +41,7 @@ struct StageOutcome {
 
 struct RunOutcome {
   std::vector<StageOutcome> stages;
-  bool interrupted = false;  // by the hook or the wall-time limit; the state is resumable
+  bool interrupted = false;  // by the hook; the state is resumable
   std::int64_t steps = 0;    // of this run
   StepTimes times;
   double cpu_seconds = 0, wall_seconds = 0;  // stepping only

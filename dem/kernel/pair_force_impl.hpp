@@ -9,22 +9,23 @@
 namespace isostat::kernel {
 
 template <class V>
-V load(const double* p) {
+ISOSTAT_INLINE V load(const double* p) {
   return V(p, stdx::element_aligned);
 }
 
 template <class V>
-V image_offset(const PairForceInput& in, std::size_t k, int axis) {
+ISOSTAT_INLINE V image_offset(const PairForceInput& in, std::size_t k, int axis) {
   return V([&](auto lane) { return in.offsets[in.pairs.shift[k + lane]][axis]; });
 }
 
 // Part of the step that a contact formed within it has existed for: the gap was positive a step ago. Without it a new
 // spring is stretched by the whole step, a first-order error in every oblique impact.
 template <class V>
-V contact_time(V gap, V normal_displacement) {
+ISOSTAT_INLINE V contact_time(V gap, V normal_displacement) {
   V fraction(1.0);
   const auto formed = gap < V(0.0) && gap - normal_displacement > V(0.0);
-  if (any_of(formed)) where(formed, fraction) = gap / normal_displacement;
+  if (any_of(formed)) [[unlikely]]
+    where(formed, fraction) = gap / normal_displacement;
   return fraction;
 }
 
