@@ -3,11 +3,11 @@
 #include <toml++/toml.h>
 #include <algorithm>
 #include <deque>
-#include <fstream>
 #include <optional>
 #include <set>
 #include <sstream>
 
+#include "dem/atomic_file.hpp"
 #include "dem/input_error.hpp"
 #include "dem/scene_check.hpp"
 #include "dem/scene_keys.hpp"
@@ -300,11 +300,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::vec
 }
 
 Scene read_scene(const std::string& path, const std::vector<std::string>& overrides) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  if (in) text << in.rdbuf();
-  if (!in || !text) throw InputError(path, 0, "", "", "cannot read the scene file");
-  return parse_scene(text.str(), path, overrides);
+  return parse_scene(read_whole_file(path), path, overrides);
 }
 
 }  // namespace isostat
