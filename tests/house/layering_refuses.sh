@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# layering_refuses.sh DIRECTORY_OF_layering.sh: the layering check accepts a clean tree and names each kind of offence.
+set -euo pipefail
+check="$1/layering.sh"
+root=$(mktemp -d)
+trap 'rm -rf "$root"' EXIT
+
+clean_tree() {
+  rm -rf "${root:?}"/*
+  mkdir -p "$root"/{geometry,dem/kernel,analysis,apps}
+  echo '#include <vector>' > "$root/geometry/cell.hpp"
+  echo '#include "geometry/cell.hpp"' > "$root/dem/state.hpp"
+  echo '#include "dem/state.hpp"' > "$root/dem/kernel/march.hpp"
+  printf '#include <hdf5.h>\n#include "dem/state.hpp"\n' > "$root/dem/state_file.cpp"
+  echo '#include "dem/state.hpp"' > "$root/analysis/counts.hpp"
+  printf '#include "analysis/counts.hpp"\n#include "dem/kernel/march.hpp"\n' > "$root/apps/main.cpp"
+}
+refuses() {  # FILE INCLUDE: adding that line to a clean tree must be refused, with the file named
+  clean_tree
+  echo "#include $2" >> "$root/$1"
+  if said=$(bash "$check" "$root"); then echo "accepted $2 in $1"; exit 1; fi
+  grep -q "^$1:" <<< "$said" || { echo "refused $2 in $1 without naming it: $said"; exit 1; }
+}
+
+clean_tree
+bash "$check" "$root" || { echo "refused a clean tree"; exit 1; }
+refuses geometry/cell.hpp '"dem/state.hpp"'
+refuses geometry/cell.hpp '"analysis/counts.hpp"'
+refuses dem/state.hpp '"analysis/counts.hpp"'
+refuses dem/state_file.cpp '"apps/commands.hpp"'
+refuses analysis/counts.hpp '"apps/commands.hpp"'
+refuses analysis/counts.hpp '"dem/kernel/march.hpp"'
+for header in CGAL/Cartesian.h cholmod.h suitesparse/umfpack.h gsl/gsl_fit.h hdf5.h H5Ipublic.h cairo.h cairo/cairo-svg.h \
+    fftw3.h toml++/toml.h; do
+  refuses dem/state.hpp "<$header>"
+done
+clean_tree  # the solver reached through a chain of headers
+echo '#include "dem/kernel/march.hpp"' >> "$root/dem/state_tools.hpp"
+echo '#include "dem/state_tools.hpp"' >> "$root/analysis/counts.hpp"
+if bash "$check" "$root" > /dev/null; then echo "accepted a chain to the solver"; exit 1; fi
