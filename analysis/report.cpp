@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "analysis/network/sections.hpp"
+#include "analysis/structure/sections.hpp"
 #include "analysis/version.hpp"
 #include "dem/input_error.hpp"
 
@@ -13,7 +14,7 @@ namespace isostat {
 const std::vector<Section>& sections() {
   static const std::vector<Section> table{
       {"counts", counts_section, counts_tables}, {"equilibrium", equilibrium_section}, {"stress", stress_section},
-      {"forces", forces_section, forces_tables}, {"percolation", percolation_section},
+      {"forces", forces_section, forces_tables}, {"percolation", percolation_section}, {"pores", pores_section},
   };
   return table;
 }
