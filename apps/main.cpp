@@ -21,7 +21,10 @@ struct Command {
 };
 
 const std::vector<Command>& commands() {
-  static const std::vector<Command> list{};
+  static const std::vector<Command> list{
+      {"pack", pack_command, "run a scene to its final state"},
+      {"lab", lab_command, "few-body experiments against closed forms; speed of the step loop"},
+  };
   return list;
 }
 

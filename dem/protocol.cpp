@@ -17,9 +17,10 @@ double solid_fraction(const Bodies<2>& b, const PeriodicCell<2>& cell) {
   return area / cell.measure();
 }
 
-double process_cpu_seconds() {
+// Of the calling thread, or with a team of threads of the process.
+double cpu_seconds(int threads) {
   timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  clock_gettime(threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_PROCESS_CPUTIME_ID, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
@@ -249,7 +250,7 @@ bool RunOutcome::all_met() const {
 
 RunOutcome run_stages(State& state, const SolverOptions& options, const RunHooks& hooks) {
   RunOutcome outcome;
-  const double wall_start = wall_seconds(), cpu_start = process_cpu_seconds();
+  const double wall_start = wall_seconds(), cpu_start = cpu_seconds(options.threads);
   const auto stages = static_cast<std::int32_t>(state.scene.stages.size());
   const std::int64_t first_step = state.step;
   while (state.progress.stage < stages) {
@@ -266,7 +267,7 @@ RunOutcome run_stages(State& state, const SolverOptions& options, const RunHooks
   }
   outcome.steps = state.step - first_step;
   outcome.wall_seconds = wall_seconds() - wall_start;
-  outcome.cpu_seconds = process_cpu_seconds() - cpu_start;
+  outcome.cpu_seconds = cpu_seconds(options.threads) - cpu_start;
   return outcome;
 }
 

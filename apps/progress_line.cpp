@@ -1,0 +1,70 @@
+#include "apps/progress_line.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+namespace isostat {
+namespace {
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+std::string clock_text(double seconds) {
+  if (!(seconds >= 0) || seconds > 99 * 3600.0) return "--:--";
+  const int s = static_cast<int>(seconds + 0.5);
+  char text[32];
+  if (s < 3600)
+    std::snprintf(text, sizeof text, "%02d:%02d", s / 60, s % 60);
+  else
+    std::snprintf(text, sizeof text, "%dh%02d", s / 3600, s / 60 % 60);
+  return text;
+}
+
+constexpr double kRefresh = 0.2;       // [s]
+constexpr double kTrendMemory = 10.0;  // [s] the decline is measured over the last so many seconds or more
+
+}  // namespace
+
+ProgressLine::ProgressLine(int stages, int samples)
+    : stages_(stages), samples_(samples), terminal_(isatty(STDERR_FILENO) == 1), start_(now()) {}
+
+ProgressLine::~ProgressLine() {
+  if (terminal_ && last_shown_ >= 0) std::fputc('\n', stderr);
+}
+
+// A timed stage: by proportion. Equilibrium: by the exponential decline of the criterion furthest from its tolerance.
+double ProgressLine::seconds_left(const Progress& p, const StageScene& stage) {
+  const double t = now();
+  if (p.stage != shown_stage_) shown_stage_ = p.stage, first_at_ = t, first_time_ = p.time, first_log_ratio_ = std::log(p.last.ratio);
+  if (stage.until == "time") {
+    const double done = p.time - first_time_;
+    return done > 0 ? (t - first_at_) * (stage.time - done) / done : NAN;
+  }
+  const double log_ratio = std::log(std::max(p.last.ratio, 1e-300));
+  const double slope = (first_log_ratio_ - log_ratio) / (t - first_at_);
+  const double left = slope > 0 ? std::max(0.0, log_ratio) / slope : NAN;
+  if (t - first_at_ > 2 * kTrendMemory) first_at_ = t - kTrendMemory, first_log_ratio_ = log_ratio + slope * kTrendMemory;
+  return left;
+}
+
+void ProgressLine::update(const Progress& p, const Scene& scene, int sample) {
+  if (!terminal_) return;
+  const std::scoped_lock hold(lock_);
+  const double t = now();
+  if (t - last_shown_ < kRefresh) return;
+  last_shown_ = t;
+  const double left = seconds_left(p, scene.stages[static_cast<std::size_t>(p.stage)]);
+  std::string head;
+  if (samples_ > 1) head = "sample " + std::to_string(sample + 1) + "/" + std::to_string(samples_) + "  ";
+  std::fprintf(stderr, "\r\033[K%sstage %d/%d  t %.1f T0  Phi %.4f  missing: %s %.3g x tolerance  %s, ETA %s",
+               head.c_str(), p.stage + 1, stages_, p.time, p.solid_fraction, p.last.name.c_str(), p.last.ratio,
+               clock_text(t - start_).c_str(), clock_text(left).c_str());
+  std::fflush(stderr);
+}
+
+}  // namespace isostat

@@ -1,0 +1,27 @@
+// One line on a terminal that says how far a run is, which equilibrium criterion is missing, and when it may be met.
+#pragma once
+#include <mutex>
+#include <string>
+
+#include "dem/protocol.hpp"
+
+namespace isostat {
+
+class ProgressLine {
+ public:
+  ProgressLine(int stages, int samples);  // silent unless stderr is a terminal
+  ~ProgressLine();                        // ends the line
+  void update(const Progress& progress, const Scene& scene, int sample);
+
+ private:
+  double seconds_left(const Progress& progress, const StageScene& stage);
+  int stages_, samples_;
+  bool terminal_;
+  double start_, last_shown_ = -1;                    // [s]
+  double first_log_ratio_ = 0, first_at_ = -1;        // where the decline of the last criterion is measured from
+  double first_time_ = 0;
+  int shown_stage_ = -1;
+  std::mutex lock_;
+};
+
+}  // namespace isostat
