@@ -1,6 +1,7 @@
 #include "analysis/report.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -53,6 +54,13 @@ std::vector<std::string> parse_section_names(const std::string& comma_separated)
 
 namespace {
 
+// An undefined number is null, in memory as in the file.
+void set_undefined_to_null(nlohmann::ordered_json& value) {
+  if (value.is_number_float() && !std::isfinite(value.get<double>())) value = nullptr;
+  if (value.is_structured())
+    for (auto& member : value) set_undefined_to_null(member);
+}
+
 // Lengths, masses and forces of the report are in these units; `si` appears when the scene maps the run to SI.
 nlohmann::ordered_json units_of(const AnalysisInput& input) {
   if (!input.state || !(input.state->law.normal_stiffness > 0)) return {{"system", "of the input file"}};
@@ -86,6 +94,7 @@ nlohmann::ordered_json analyze(const AnalysisInput& input, const AnalysisOptions
       report[section.name] = section.compute(input, options);
     }
   }
+  set_undefined_to_null(report);
   return report;
 }
 

@@ -1,0 +1,15 @@
+// Reports of several inputs merged into one: each number becomes {"mean", "sd", "se"} over the inputs.
+#pragma once
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+namespace isostat {
+
+// sd is the sample standard deviation (n - 1), se = sd / sqrt(n); both null for n = 1. Inputs where a number is null or
+// absent do not count; "n" is then added. Objects and arrays of one shape are merged entry by entry, with these
+// exceptions: "inputs" is concatenated; "x" is padded with zeros; equal strings, booleans and bin edges stay as they
+// are; histograms ({"edges", "density"}) of equal bin width are aligned, a bin outside a sample's range being empty;
+// arrays of different lengths, lists of objects, ids, and differing strings become one entry an input.
+nlohmann::ordered_json merge_reports(const std::vector<nlohmann::ordered_json>& reports);
+
+}  // namespace isostat

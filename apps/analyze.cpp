@@ -1,0 +1,120 @@
+// isostat analyze INPUT... : what the report holds is analysis/report.hpp; here are only arguments and files.
+#include <filesystem>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "analysis/ensemble.hpp"
+#include "analysis/load_input.hpp"
+#include "analysis/report.hpp"
+#include "analysis/report_text.hpp"
+#include "apps/arguments.hpp"
+#include "apps/commands.hpp"
+#include "dem/input_error.hpp"
+#include "dem/text_output.hpp"
+
+namespace isostat {
+namespace {
+
+AnalysisOptions options_of(const Arguments& arguments) {
+  AnalysisOptions options;
+  if (const auto law = arguments.choice("--law", {"friction", "frictionless", "rolling"}))
+    options.law = *law == "frictionless" ? NetworkLaw::frictionless
+                  : *law == "rolling"    ? NetworkLaw::rolling
+                                         : NetworkLaw::friction;
+  options.cell_free = arguments.choice("--cell", {"fixed", "free"}).value_or("fixed") == "free";
+  options.gap_tolerance = arguments.number("--gap-tolerance");
+  if (options.gap_tolerance && *options.gap_tolerance < 0)
+    throw InputError("command line", 0, "--gap-tolerance", *arguments.value("--gap-tolerance"), "must not be negative");
+  const auto k_max = arguments.number("--k-max");
+  if (k_max && !(*k_max > 0))
+    throw InputError("command line", 0, "--k-max", *arguments.value("--k-max"), "must be positive");
+  options.k_max = k_max.value_or(0);
+  return options;
+}
+
+// One report an input, and the rows of its long tables, one file for each; faults of all inputs are listed together.
+class Analysis {
+ public:
+  Analysis(AnalysisOptions options, std::vector<std::string> only, bool with_tables)
+      : options_(std::move(options)), only_(std::move(only)), with_tables_(with_tables) {}
+
+  void add(const std::string& path) {
+    try {
+      const AnalysisInput input = load_input(path, options_);
+      reports_.push_back(analyze(input, options_, only_));
+      if (with_tables_) add_tables(input);
+    } catch (const InputError& error) {
+      faults_.insert(faults_.end(), error.faults().begin(), error.faults().end());
+    }
+  }
+  nlohmann::ordered_json report() const {
+    if (!faults_.empty()) throw InputError(faults_);
+    return merge_reports(reports_);
+  }
+  const std::vector<std::pair<std::string, std::string>>& tables() const { return tables_; }
+
+ private:
+  void add_tables(const AnalysisInput& input) {
+    const auto number = std::to_string(reports_.size());
+    for (const Section& section : sections()) {
+      if (!section.tables || !reports_.back().contains(std::string(section.name))) continue;
+      for (const Table& table : section.tables(input, options_))
+        tables_.emplace_back(std::string(section.name) + "." + table.name + "." + number + ".csv", table_as_csv(table));
+    }
+  }
+  AnalysisOptions options_;
+  std::vector<std::string> only_;
+  bool with_tables_;
+  std::vector<nlohmann::ordered_json> reports_;
+  std::vector<std::pair<std::string, std::string>> tables_;
+  std::vector<Fault> faults_;
+};
+
+}  // namespace
+
+int analyze_command(int argc, char** argv) {
+  std::string names;
+  for (const Section& s : sections()) names += (names.empty() ? "" : ",") + std::string(s.name);
+  const std::string only_help = "sections to compute, among " + names + "; default: all that apply";
+  const Arguments arguments(
+      argc, argv,
+      {{"--only", "LIST", only_help},
+       {"--json", "FILE", "write the report as JSON; - for stdout (then nothing else is printed)"},
+       {"--csv", "DIR", "write the report and the tables behind it as CSV files"},
+       {"--law", "LAW", "friction, frictionless or rolling; default: the state's own (a network: friction)"},
+       {"--cell", "fixed|free", "free adds the diagonal strains of the cell to the degrees of freedom"},
+       {"--gap-tolerance", "LENGTH", "gap up to which grains touch (contacts of grain lists; closing of pores)"},
+       {"--k-max", "K", "largest wave number of the scattering intensity"}},
+      {"INPUT...", "Measures what a packing is and what holds it up; several inputs make one ensemble."});
+  if (arguments.inputs().empty())
+    throw InputError("command line", 0, "INPUT", "", "at least one state, network or foreign packing is needed");
+  const AnalysisOptions options = options_of(arguments);
+  const auto only_text = arguments.value("--only");
+  const std::vector<std::string> only = parse_section_names(only_text.value_or(""));
+  if (only_text && only.empty())
+    throw InputError("command line", 0, "--only", *only_text, "names no section: " + names);
+
+  const auto json_path = arguments.value("--json"), csv_directory = arguments.value("--csv");
+  Analysis analysis(options, only, csv_directory.has_value());
+  for (const std::string& path : arguments.inputs()) analysis.add(path);
+  const nlohmann::ordered_json report = analysis.report();
+
+  std::vector<std::pair<std::string, std::string>> files;
+  if (json_path && *json_path != "-") files.emplace_back(*json_path, report.dump(1) + "\n");
+  if (csv_directory) {
+    std::error_code error;
+    std::filesystem::create_directories(*csv_directory, error);
+    if (error) throw InputError(*csv_directory, 0, "--csv", "", "cannot be made: " + error.message());
+    for (const auto& source : {report_as_csv(report), analysis.tables()})
+      for (const auto& [name, content] : source)
+        files.emplace_back((std::filesystem::path(*csv_directory) / name).string(), content);
+  }
+  write_text_files(files);
+  if (json_path == "-")
+    std::cout << report.dump(1) << '\n';
+  else if (!json_path)
+    std::cout << report_as_text(report);
+  return exit_done;
+}
+
+}  // namespace isostat

@@ -1,0 +1,85 @@
+// isostat convert INPUT -o OUTPUT [--box L1,L2[,L3]]: the output's extension names its format.
+#include <charconv>
+#include <cmath>
+#include <functional>
+
+#include "apps/arguments.hpp"
+#include "apps/commands.hpp"
+#include "dem/formats/csv.hpp"
+#include "dem/formats/dump.hpp"
+#include "dem/formats/vtp.hpp"
+#include "dem/formats/xyz.hpp"
+#include "dem/input_error.hpp"
+#include "dem/network_file.hpp"
+#include "dem/packing_file.hpp"
+#include "dem/state_file.hpp"
+#include "dem/text_output.hpp"
+
+namespace isostat {
+namespace {
+
+std::vector<double> parse_box(const std::string& text) {
+  std::vector<double> edges;
+  const auto refuse = [&] {
+    throw InputError("command line", 0, "--box", text, "must be two (3D: three) positive edges, as in 10,20");
+  };
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find(',', at), text.size());
+    double edge = 0;
+    const auto [stop, error] = std::from_chars(text.data() + at, text.data() + end, edge);
+    if (error != std::errc{} || stop != text.data() + end || !std::isfinite(edge) || !(edge > 0)) refuse();
+    edges.push_back(edge);
+    at = end + 1;
+  }
+  if (edges.size() != 2 && edges.size() != 3) refuse();
+  return edges;
+}
+
+using Files = std::vector<std::pair<std::string, std::string>>;  // path, content
+
+template <int D>
+Files files_of(const Packing<D>& packing, const std::string& path, std::int64_t step, double time) {
+  if (path.ends_with(".csv"))
+    return {{grains_csv_path(path), grains_csv(packing)}, {contacts_csv_path(path), contacts_csv(packing)}};
+  if (path.ends_with(".dump"))
+    return {{path, grains_dump(packing, step)}, {links_dump_path(path), links_dump(packing, step)}};
+  if (path.ends_with(".xyz")) return {{path, extended_xyz(packing, time)}};
+  if (path.ends_with(".net")) return {{path, network_text(packing)}};
+  return {{path, vtk_polydata(packing, time)}};
+}
+
+}  // namespace
+
+int convert_command(int argc, char** argv) {
+  const Arguments arguments(
+      argc, argv,
+      {{"-o", "OUTPUT", ".h5, .vtp, .dump, .xyz, .net or .csv"},
+       {"--box", "L1,L2[,L3]", "edges of the periodic cell of a file that has none"},
+       {"--gap-tolerance", "LENGTH", "gap up to which grains of a list without contacts touch"}},
+      {"INPUT -o OUTPUT", "Translates a packing; a foreign one (.csv, .dump, .net) becomes a state with .h5."});
+  arguments.require_inputs(1, 1, "one packing");
+  const std::string input_path = arguments.inputs()[0], output = arguments.required("-o");
+  bool known = false;
+  for (const char* end : {".h5", ".vtp", ".dump", ".xyz", ".net", ".csv"}) known = known || output.ends_with(end);
+  if (!known) throw InputError("command line", 0, "-o", output, "must end in .h5, .vtp, .dump, .xyz, .net or .csv");
+  PackingReading reading;
+  if (const auto box = arguments.value("--box")) reading.box = parse_box(*box);
+  reading.gap_tolerance = arguments.number("--gap-tolerance");
+  if (reading.gap_tolerance && *reading.gap_tolerance < 0)
+    throw InputError("command line", 0, "--gap-tolerance", *arguments.value("--gap-tolerance"), "must not be negative");
+
+  PackingFile file = read_packing(input_path, reading);
+  if (output.ends_with(".h5")) {
+    if (file.packing_3d)
+      throw InputError(input_path, 0, "-o", output, "a state file holds planar packings; this one is in 3D");
+    write_state(file.state ? *file.state : foreign_state(std::move(file.packing)), output);
+    return exit_done;
+  }
+  const std::int64_t step = file.state ? file.state->step : 0;
+  const double time = file.state ? file.state->time : 0;
+  write_text_files(file.packing_3d ? files_of(*file.packing_3d, output, step, time)
+                                   : files_of(file.packing, output, step, time));
+  return exit_done;
+}
+
+}  // namespace isostat
