@@ -141,8 +141,11 @@ std::string first_bytes(const std::string& path) {
 
 PackingFormat sniff_packing_format(const std::string& path) {
   const std::string bytes = first_bytes(existing_path(path));
-  if (bytes.starts_with("\x89HDF\r\n\x1a\n")) return PackingFormat::state;
-  for (std::size_t at = 0; at < bytes.size();) {
+  // Also other HDF5 files, damaged states and whatever is called .h5: the reader of states says what is wrong.
+  if (is_state_file(existing_path(path)) || bytes.starts_with("\x89HDF\r\n\x1a\n") || path.ends_with(".h5"))
+    return PackingFormat::state;
+  const bool is_text = bytes.find('\0') == std::string::npos;
+  for (std::size_t at = 0; is_text && at < bytes.size();) {
     const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
     const std::string line = bytes.substr(at, end - at);
     at = end + 1;

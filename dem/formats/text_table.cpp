@@ -11,7 +11,14 @@
 namespace isostat {
 namespace {
 
-constexpr std::size_t kMostFaults = 1000;  // listed; a file with more is of another kind
+constexpr std::size_t kMostFaults = 100;  // listed
+
+void add_fault(std::vector<Fault>& faults, Fault fault) {
+  if (faults.size() < kMostFaults)
+    faults.push_back(std::move(fault));
+  else if (faults.size() == kMostFaults)
+    faults.push_back({fault.file, fault.line, "", "", "more faults from here on are not listed"});
+}
 
 std::string_view trimmed(std::string_view s) {
   constexpr std::string_view space = " \t\r";
@@ -40,8 +47,7 @@ class NumberReader {
     return col ? number<std::int64_t>(row, *col, "must be an integer") : absent;
   }
   void fault(int line, std::string key, std::string_view value, std::string rule) {
-    if (faults_.size() < kMostFaults)
-      faults_.push_back({table_.path, line, std::move(key), std::string(value), std::move(rule)});
+    add_fault(faults_, {table_.path, line, std::move(key), std::string(value), std::move(rule)});
   }
   void cell_fault(std::size_t row, std::size_t col, std::string rule) {
     fault(line_of(row), table_.columns[col], table_.cell(row, col), std::move(rule));
@@ -135,9 +141,8 @@ TextTable parse_csv(std::string_view text, const std::string& path) {
       from = comma + 1;
     }
     if (line > 1 && fields != table.columns.size()) {
-      if (faults.size() < kMostFaults)
-        faults.push_back({path, line, "", std::to_string(fields) + " fields",
-                          "a row has as many fields as the header, " + std::to_string(table.columns.size())});
+      add_fault(faults, {path, line, "", std::to_string(fields) + " fields",
+                         "a row has as many fields as the header, " + std::to_string(table.columns.size())});
       table.cells.resize(table.cells.size() - fields);
     }
   }

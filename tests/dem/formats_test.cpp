@@ -14,6 +14,7 @@
 #include "dem/input_error.hpp"
 #include "dem/network_file.hpp"
 #include "dem/packing_file.hpp"
+#include "dem/state_file.hpp"
 #include "dem/text_output.hpp"
 #include "tests/oracle/network_oracle.hpp"
 
@@ -234,18 +235,39 @@ TEST(Dump, RefusesTruncatedTiltedAndForeignText) {
 TEST(PackingFile, IsKnownByItsContent) {
   Directory dir;
   write_text_files({{dir / "state.csv", std::string("\x89HDF\r\n\x1a\n", 8)},
-                    {dir / "net.h5", "# a network\n\ngrain 1 0 0 1\n"},
+                    {dir / "net.csv", "# a network\n\ngrain 1 0 0 1\n"},
                     {dir / "dump.net", "ITEM: TIMESTEP\n"},
                     {dir / "grains.txt", "id,x,y,r\n1,0,0,1\n"},
                     {dir / "prose.txt", "Once upon a time\n"},
                     {dir / "empty", ""}});
   EXPECT_EQ(sniff_packing_format(dir / "state.csv"), PackingFormat::state);
-  EXPECT_EQ(sniff_packing_format(dir / "net.h5"), PackingFormat::network);
+  EXPECT_EQ(sniff_packing_format(dir / "net.csv"), PackingFormat::network);
   EXPECT_EQ(sniff_packing_format(dir / "dump.net"), PackingFormat::dump);
   EXPECT_EQ(sniff_packing_format(dir / "grains.txt"), PackingFormat::csv);
+  write_text_files({{dir / "bytes", std::string("1,2\n\0\1", 6)}, {dir / "prose.h5", "Once upon a time"}});
+  EXPECT_THROW(sniff_packing_format(dir / "bytes"), InputError);
+  EXPECT_THAT(faults_of(dir / "prose.h5"), HasSubstr("prose.h5"));
   EXPECT_THROW(sniff_packing_format(dir / "prose.txt"), InputError);
   EXPECT_THROW(sniff_packing_format(dir / "empty"), InputError);
   EXPECT_THROW(sniff_packing_format(dir / "missing"), InputError);
+}
+
+TEST(PackingFile, StateRoundTrip) {
+  Directory dir;
+  const Packing<2> p = with_kinds(oracle::random_packing(6, 15, 30, true));
+  write_state(foreign_state(p), dir / "p.h5");
+  const PackingFile file = read_packing(dir / "p.h5");
+  EXPECT_EQ(file.format, PackingFormat::state);
+  ASSERT_TRUE(file.state);
+  EXPECT_EQ(file.state->law.normal_stiffness, 0);
+  for (const Packing<2>* read : {&file.packing, &file.state->packing}) {
+    EXPECT_EQ(read->cell->length, p.cell->length);
+    expect_same_motion(read->bodies, p.bodies);
+    expect_same_links(read->links, p.links);
+  }
+  PackingReading reading;
+  reading.box = {4, 4};
+  EXPECT_THAT(faults_of(dir / "p.h5", reading), HasSubstr("has its own cell"));
 }
 
 TEST(PackingFile, BoxGoesOnlyToWhatHasNone) {
