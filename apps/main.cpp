@@ -26,6 +26,7 @@ const std::vector<Command>& commands() {
       {"lab", lab_command, "few-body experiments against closed forms; speed of the step loop"},
       {"analyze", analyze_command, "counts, equilibrium, stress, forces, percolation, ... of packings"},
       {"convert", convert_command, "state, network, CSV, LAMMPS dump, XYZ and ParaView files"},
+      {"info", info_command, "what a state file is: hash, cell, scene, dimensionless numbers, provenance"},
   };
   return list;
 }

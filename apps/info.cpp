@@ -1,0 +1,113 @@
+// isostat info STATE: what a state file is, as one JSON object on stdout.
+#include <cmath>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "apps/arguments.hpp"
+#include "apps/commands.hpp"
+#include "dem/scales.hpp"
+#include "dem/scene_keys.hpp"
+#include "dem/state_file.hpp"
+#include "dem/state_seal.hpp"
+
+namespace isostat {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Undefined numbers are null.
+Json number(const std::optional<double>& x) { return x && std::isfinite(*x) ? Json(*x) : Json(nullptr); }
+
+Json key_value(const SceneKey& key, Scene& scene, std::size_t stage) {
+  return std::visit(
+      [&](const auto* value) -> Json {
+        using Type = std::remove_cvref_t<decltype(*value)>;
+        if constexpr (std::is_same_v<Type, std::optional<double>>)
+          return number(*value);
+        else if constexpr (std::is_enum_v<Type>)
+          return key.choices.at(static_cast<std::size_t>(*value));
+        else
+          return *value;
+      },
+      key.field(scene, stage));
+}
+
+// Nested as in the scene file; keys that do not apply are left out, optional ones without a value are null.
+Json scene_json(Scene scene) {
+  Json json = Json::object();
+  json["stage"] = Json::array();
+  for (std::size_t k = 0; k < scene.stages.size(); ++k) json["stage"].push_back(Json::object());
+  for (const SceneKey& key : scene_keys()) {
+    if ((key.applies && !key.applies(scene)) || (belongs_to_units(key) && !scene.units)) continue;
+    const std::size_t dot = key.name.find('.');
+    const std::string table(key.name.substr(0, dot == std::string_view::npos ? 0 : dot));
+    const std::string leaf(key.name.substr(dot == std::string_view::npos ? 0 : dot + 1));
+    if (belongs_to_stage(key))
+      for (std::size_t k = 0; k < scene.stages.size(); ++k) json["stage"][k][leaf] = key_value(key, scene, k);
+    else
+      (table.empty() ? json : json[table])[leaf] = key_value(key, scene, 0);
+  }
+  return json;
+}
+
+Json scales_json(const Scales& s) {
+  return {{"kappa", number(s.kappa)},
+          {"P*", number(s.reduced_pressure)},
+          {"h0_over_D0", number(s.overlap_over_range)},
+          {"e_N", number(s.restitution)},
+          {"V*", number(s.velocity)},
+          {"T0", number(s.time)},
+          {"dt", number(s.time_step)},
+          {"dt_critical", number(s.critical_time_step)}};
+}
+
+// The same quantities, and the units, in SI: m, kg, N, s; stress and stiffness in the plane in N/m.
+Json si_json(const State& state, const Scales& s) {
+  const SiScales si = si_scales(*state.scene.units);
+  const auto times = [](const std::optional<double>& x, double unit) { return x ? number(*x * unit) : Json(nullptr); };
+  return {{"a", number(si.length)},
+          {"m", number(si.mass)},
+          {"F0", number(si.force)},
+          {"T0", times(s.time, si.time)},
+          {"V*", times(s.velocity, si.velocity())},
+          {"P", times(state.imposed_pressure, si.pressure())},
+          {"K_N", number(state.law.normal_stiffness * si.pressure())},
+          {"dt", number(s.time_step * si.time)},
+          {"dt_critical", number(s.critical_time_step * si.time)},
+          {"time", number(state.time * si.time)}};
+}
+
+Json info_json(const StateFile& file) {
+  const State& state = file.state;
+  const Scales s = scales(state);
+  Json json;
+  json["format_version"] = kStateFormatVersion;
+  json["hash"] = file.hash;
+  json["cell"] = nullptr;
+  if (state.packing.cell) json["cell"] = state.packing.cell->length.c;
+  json["time"] = state.time;
+  json["seed"] = state.seed;
+  json["scene"] = scene_json(state.scene);
+  json["scales"] = scales_json(s);
+  if (state.scene.units) json["si"] = si_json(state, s);
+  json["provenance"] = {{"version", file.provenance.version},
+                        {"compiler", file.provenance.compiler},
+                        {"command", file.provenance.command}};
+  return json;
+}
+
+}  // namespace
+
+int info_command(int argc, char** argv) {
+  const Arguments arguments(argc, argv, {},
+                            {"STATE",
+                             "Prints what a state file is as JSON: hash of the physical state, cell, scene, "
+                             "dimensionless numbers (in SI too if the scene has [units]), provenance."});
+  arguments.require_inputs(1, 1, "one state file");
+  std::cout << info_json(read_state_file(arguments.inputs()[0])).dump(2, ' ', false, Json::error_handler_t::replace)
+            << '\n';
+  return exit_done;
+}
+
+}  // namespace isostat

@@ -1,0 +1,121 @@
+// isostat info, and what all commands share: help, version, exit codes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "dem/scene_file.hpp"
+#include "dem/state_file.hpp"
+#include "tests/apps/program.hpp"
+
+namespace isostat {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using InfoCommand = Program;
+using AnyCommand = Program;
+
+// Two disks of diameters 1 and 1/2 in a cell.
+State two_disks() {
+  State s;
+  s.packing.cell = PeriodicCell<2>{{{4, 5}}};
+  s.packing.bodies.resize(2);
+  s.packing.bodies.id = {1, 2};
+  s.packing.bodies.position = {{{1, 1}}, {{1.75, 1}}};
+  s.packing.bodies.radius = {0.5, 0.25};
+  s.packing.bodies.mass = {1, 0.25};
+  s.packing.bodies.inertia = {0.125, 0.0078125};
+  s.packing.links.push_back({0, 1, {}, LinkKind::distant, 0.0, -1.0, 0, 0});
+  s.scene = read_scene(ISOSTAT_DATA "/scenes/disks-method1.toml");
+  s.law = resolve(s.scene.law);
+  s.time = 12.5, s.time_step = 0.06 * std::sqrt(1e-5), s.imposed_pressure = 0.01;
+  s.seed = 18446744073709551615u;
+  return s;
+}
+
+TEST_F(InfoCommand, PrintsTheContract) {
+  const State state = two_disks();
+  write_state(state, in_folder("state.h5"), {"9.9", "", "pack scene.toml"});
+  const Outcome o = run("info " + in_folder("state.h5"));
+  ASSERT_EQ(o.code, 0) << o.err;
+  const json j = json::parse(o.out);
+  EXPECT_EQ(j["format_version"], 1);
+  EXPECT_EQ(j["hash"], read_state_file(in_folder("state.h5")).hash);
+  EXPECT_EQ(j["cell"], json({4.0, 5.0}));
+  EXPECT_EQ(j["time"], 12.5);
+  EXPECT_EQ(j["seed"], 18446744073709551615u);
+  EXPECT_EQ(j["scene"]["grains"]["count"], 1400);
+  EXPECT_EQ(j["scene"]["law"]["friction"], 0.5);
+  EXPECT_EQ(j["scene"]["law"]["rolling_friction"], nullptr);
+  EXPECT_EQ(j["scene"]["finish"]["method"], "drag");
+  EXPECT_EQ(j["scene"]["stage"][0]["pressure"], 0.01);
+  EXPECT_FALSE(j["scene"].contains("units"));
+  const json& s = j["scales"];
+  EXPECT_DOUBLE_EQ(s["kappa"], 1e5);
+  EXPECT_DOUBLE_EQ(s["P*"], 0.01);
+  EXPECT_DOUBLE_EQ(s["h0_over_D0"], 0.01);
+  EXPECT_NEAR(s["e_N"], std::exp(-std::numbers::pi * 0.8 / 0.6), 1e-15);
+  EXPECT_DOUBLE_EQ(s["V*"], std::sqrt(1e-3));
+  EXPECT_EQ(s["T0"], 1.0);
+  EXPECT_EQ(s["dt"], state.time_step);
+  // smallest disk, m = 1/4, d = 1/2: omega^2 = 24 K_T / m + 96 K_r / (m d^2) with K_r = 1e-4 K_N
+  EXPECT_NEAR(s["dt_critical"].get<double>(), 2 / std::sqrt(24e5 / 0.25 + 96 * 10 / (0.25 * 0.25)), 1e-15);
+  EXPECT_EQ(j["provenance"]["version"], "9.9");
+  EXPECT_EQ(j["provenance"]["command"], "pack scene.toml");
+  EXPECT_FALSE(j.contains("si"));
+}
+
+TEST_F(InfoCommand, GivesSiWithUnitsAndNullWithoutCohesion) {
+  State state = two_disks();
+  state.scene.units = UnitsScene{1e-5, 1e-2, 1e-8};  // m = density pi a^2/4, T0 = sqrt(m a / F0)
+  write_state(state, in_folder("state.h5"));
+  const json si = json::parse(run("info " + in_folder("state.h5")).out)["si"];
+  const double mass = 1e-2 * std::numbers::pi * 1e-10 / 4, time = std::sqrt(mass * 1e-5 / 1e-8);
+  EXPECT_NEAR(si["m"].get<double>() / mass, 1, 1e-14);
+  EXPECT_NEAR(si["T0"].get<double>() / time, 1, 1e-14);
+  EXPECT_NEAR(si["V*"].get<double>() / (std::sqrt(1e-3) * 1e-5 / time), 1, 1e-14);
+  EXPECT_NEAR(si["P"].get<double>() / (0.01 * 1e-8 / 1e-5), 1, 1e-14);
+  EXPECT_NEAR(si["K_N"].get<double>() / (1e5 * 1e-8 / 1e-5), 1, 1e-14);
+
+  state.law.attraction = state.law.attraction_range = 0;
+  state.packing.cell.reset();
+  write_state(state, in_folder("dry.h5"));
+  const json dry = json::parse(run("info " + in_folder("dry.h5")).out);
+  EXPECT_EQ(dry["scales"]["V*"], nullptr);
+  EXPECT_EQ(dry["scales"]["h0_over_D0"], nullptr);
+  EXPECT_EQ(dry["cell"], nullptr);
+}
+
+TEST_F(AnyCommand, BadUsageAndInputExitWithTwo) {
+  const Outcome missing = run("info " + in_folder("none.h5"));
+  EXPECT_EQ(missing.code, 2);
+  EXPECT_THAT(missing.err, HasSubstr("none.h5"));
+  EXPECT_EQ(missing.out, "");
+  EXPECT_EQ(run("info").code, 2);
+  EXPECT_EQ(run("info a b").code, 2);
+  EXPECT_EQ(run("").code, 2);
+  const Outcome unknown = run("inof state.h5");
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("did you mean info?"));
+  EXPECT_THAT(run("info --jsn x").err, HasSubstr("--jsn: unknown option"));
+}
+
+TEST_F(AnyCommand, HelpAndVersionGoToStdout) {
+  EXPECT_EQ(run("--version").code, 0);
+  EXPECT_THAT(run("--version").out, HasSubstr("isostat "));
+  EXPECT_THAT(run("--help").out, HasSubstr("info"));
+  EXPECT_EQ(run("info --help").code, 0);
+  EXPECT_THAT(run("info --help").out, HasSubstr("isostat info STATE"));
+}
+
+TEST_F(AnyCommand, FullStandardOutputIsNoSuccess) {
+  write_state(two_disks(), in_folder("state.h5"));
+  const std::string command = ISOSTAT_PROGRAM " info " + in_folder("state.h5") + " >/dev/full 2>/dev/null";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 2);
+}
+
+}  // namespace
+}  // namespace isostat
