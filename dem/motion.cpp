@@ -5,35 +5,46 @@
 namespace isostat {
 namespace {
 
+// A row is four pairs (x, y), (u, v), (R w, w), (p, q) and a load two; two lanes are in every 64-bit machine and
+// nothing has to be moved between them.
+using Pair __attribute__((vector_size(16), may_alias)) = double;
+
+Pair* pairs(double* p) { return reinterpret_cast<Pair*>(__builtin_assume_aligned(p, 16)); }
+Pair larger(Pair a, Pair b) { return a > b ? a : b; }
+
 template <bool kRotation, bool kFreeCell>
 MotionTally advance(BodiesStore& bodies, std::size_t begin, std::size_t end, const MotionStep& step) {
   const double dt = step.time_step, half = 0.5 * dt;
-  MotionTally tally;
-  for (std::size_t k = begin; k < end; ++k) {
-    double* __restrict row = bodies.row(k);
-    double* __restrict load = bodies.load(k);
+  const Pair keep = {step.keep[0], step.keep[1]};
+  const Pair scale = {step.scale[0], step.scale[1]}, drift = {dt * step.half_scale[0], dt * step.half_scale[1]};
+  Pair fastest = {0, 0}, kinetic = {0, 0};
+  double* row = bodies.row(begin);
+  double* load = bodies.load(begin);
+  for (std::size_t k = begin; k < end; ++k, row += kernel::kRowWidth, load += kernel::kLoadWidth) {
     const BodyConstants& c = bodies.constants[k];
-    const double ax = load[0] * c.inverse_mass, ay = load[1] * c.inverse_mass;
-    const double u = (row[2] + dt * ax) * step.keep[0], v = (row[3] + dt * ay) * step.keep[1];
-    const double p = u + half * ax, q = v + half * ay;
-    row[2] = u, row[3] = v, row[6] = p, row[7] = q;
+    Pair* const r = pairs(row);
+    Pair* const f = pairs(load);
+    const Pair acceleration = f[0] * c.inverse_mass;
+    const Pair velocity = (r[1] + dt * acceleration) * keep;
+    const Pair predicted = velocity + half * acceleration;
     if constexpr (kFreeCell) {
-      row[0] = row[0] * step.scale[0] + dt * u * step.half_scale[0];
-      row[1] = row[1] * step.scale[1] + dt * v * step.half_scale[1];
-      tally.kinetic[0] += c.mass * p * p;
-      tally.kinetic[1] += c.mass * q * q;
+      r[0] = r[0] * scale + velocity * drift;
+      kinetic += c.mass * (predicted * predicted);
     } else {
-      row[0] += dt * u, row[1] += dt * v;
+      r[0] += dt * velocity;
     }
+    r[1] = velocity;
     if constexpr (kRotation) {
-      const double moment = c.radius * load[2] + load[3];
-      const double w = (row[5] + dt * moment * c.inverse_inertia) * step.keep_spin;
-      row[5] = w, row[4] = c.radius * w;
+      const double moment = c.radius * f[1][0] + f[1][1];
+      const double spin = (r[2][1] + dt * moment * c.inverse_inertia) * step.keep_spin;
+      r[2] = Pair{c.radius * spin, spin};
     }
-    load[0] = load[1] = load[2] = load[3] = 0;
-    tally.largest_speed_squared = std::max(tally.largest_speed_squared, u * u + v * v);
+    r[3] = predicted;
+    f[0] = f[1] = Pair{0, 0};
+    fastest = larger(fastest, velocity * velocity);
   }
-  return tally;
+  // max u^2 + max v^2 bounds max (u^2 + v^2)
+  return {fastest[0] + fastest[1], {kinetic[0], kinetic[1]}};
 }
 
 }  // namespace

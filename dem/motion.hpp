@@ -20,7 +20,7 @@ struct MotionStep {
 };
 
 struct MotionTally {
-  double largest_speed_squared = 0;  // [a^2/T0^2] of u(n+1/2)
+  double largest_speed_squared = 0;  // [a^2/T0^2] bound on that of u(n+1/2)
   double kinetic[2] = {0, 0};        // sum of m p_a^2 [F0 a], for the stress of a free cell
 };
 
