@@ -77,6 +77,8 @@ class NetworkParser {
     check_placement();
     for (const auto& [at, fields] : contacts_) contact(at, fields);
     if (file_.packing.bodies.size() == 0 && faults_.empty()) fault(0, "grain", "", "the file has no grain line");
+    if (contacts_.empty() && faults_.empty() && !cell_fits(file_.packing))
+      fault(cell_line_, "cell", "", "an edge is below 0.1 of the largest radius: check the units");
     if (!faults_.empty()) throw InputError(std::move(faults_));
 
     set_masses();

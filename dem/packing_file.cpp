@@ -1,6 +1,7 @@
 #include "dem/packing_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -42,6 +43,20 @@ void set_box(Packing<D>& packing, const std::string& path, const PackingReading&
   packing.cell = cell_of<D>(*reading.box);
 }
 
+// A cell that cannot be meant: grains far outside it, or far larger than it.
+template <int D>
+void check_cell(const Packing<D>& packing, const std::string& path) {
+  if (!packing.cell) return;
+  constexpr double kMostImages = 1e8;  // shifts stay exact integers
+  for (std::size_t i = 0; i < packing.bodies.size(); ++i)
+    for (int k = 0; k < D; ++k)
+      if (!(std::abs(packing.bodies.position[i][k]) <= kMostImages * packing.cell->length[k]))
+        throw InputError(path, 0, "grain", std::to_string(packing.bodies.id[i]),
+                         "lies more than 1e8 cells away from the cell");
+  if (!cell_fits(packing))
+    throw InputError(path, 0, "cell", "", "an edge is below 0.1 of the largest radius: check the units");
+}
+
 template <int D>
 void find_touching(Packing<D>& packing, const PackingReading& reading) {
   packing.links = touching_links(packing, reading.gap_tolerance.value_or(default_gap_tolerance(packing.bodies)));
@@ -54,6 +69,7 @@ void read_network_into(PackingFile& file, const std::string& path, const Packing
   const bool isolated = !network.packing.cell;
   set_box(network.packing, path, reading);
   if (reading.box && isolated) {
+    check_cell(network.packing, path);
     // The file was read as isolated: with its cell the nearest images are meant, and more grains may touch.
     if (!file.links_given) find_touching(network.packing, reading);
     for (Link<D>& link : network.packing.links) {
@@ -76,6 +92,7 @@ void read_tables_into(PackingFile& file, const TextTable& grains, const std::opt
   packing.bodies = read_grains<D>(grains);
   if (own_box) packing.cell = cell_of<D>(*own_box);
   set_box(packing, grains.path, reading);
+  check_cell(packing, grains.path);
   file.links_given = links.has_value();
   if (links)
     packing.links = read_links<D>(*links, packing);

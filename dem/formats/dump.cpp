@@ -188,7 +188,11 @@ DumpFrame parse_dump(std::string_view text, const std::string& path) {
       lines.next(line);
     } else if (item == "NUMBER") {
       if (!lines.next(line)) break;
-      count = static_cast<long long>(number_or_throw(line, path, lines.number(), "NUMBER OF"));
+      const auto number = fields_of(line);
+      const auto [end, error] = number.empty() ? std::from_chars_result{nullptr, std::errc::invalid_argument}
+                                               : std::from_chars(number[0].data(), line.data() + line.size(), count);
+      if (error != std::errc{} || number.size() != 1 || end != number[0].data() + number[0].size() || count < 0)
+        throw InputError(path, lines.number(), "NUMBER OF", std::string(line), "must be an integer, not negative");
     } else if (item == "BOX") {
       box = parse_box(line, lines, path);
     } else if (item == "ATOMS" || item == "ENTRIES") {

@@ -227,7 +227,9 @@ std::vector<Link<D>> read_links(const TextTable& links, const Packing<D>& grains
     Vec<D> branch = grains.bodies.position[j] - grains.bodies.position[i];
     if (grains.cell && !s[0]) l.shift = grains.cell->nearest_image(branch);
     for (std::size_t k = 0; k < D && s[0]; ++k) {
-      l.shift[k] = static_cast<int>(in.integer(row, s[k], 0));
+      const std::int64_t shift = in.integer(row, s[k], 0);
+      if (std::abs(static_cast<double>(shift)) > 1e8) in.cell_fault(row, *s[k], "must be an integer of at most 1e8");
+      l.shift[k] = static_cast<int>(std::clamp<std::int64_t>(shift, -100000000, 100000000));
       if (!grains.cell && l.shift[k] != 0) in.cell_fault(row, *s[k], "an image shift needs a periodic cell (--box)");
     }
     if (grains.cell) branch += grains.cell->offset(l.shift);

@@ -232,6 +232,49 @@ TEST(Dump, RefusesTruncatedTiltedAndForeignText) {
   EXPECT_THAT(faults_of(dir / "l.dump"), HasSubstr("periodic along all axes"));
 }
 
+// Whatever is cut off or garbled, the answer is a packing or an InputError.
+TEST(PackingFile, DamagedTextIsReadOrRefused) {
+  Directory dir;
+  const Packing<2> p = with_kinds(oracle::random_packing(4, 3, 4, true));
+  const std::vector<std::pair<std::string, std::string>> files{{"p.grains.csv", grains_csv(p)},
+                                                               {"p.contacts.csv", contacts_csv(p)},
+                                                               {"p.dump", grains_dump(p, 0)},
+                                                               {"p.contacts.dump", links_dump(p, 0)},
+                                                               {"p.net", network_text(p)}};
+  for (const auto& [name, content] : files) write_text_files({{dir / name, content}});
+  int refused = 0;
+  for (const auto& [name, content] : files) {
+    const std::string read = name.ends_with(".csv") ? "p.csv" : name.ends_with(".dump") ? "p.dump" : name;
+    for (std::size_t at = 0; at < content.size(); at += 7)
+      for (const bool cut : {true, false}) {
+        std::string damaged = content.substr(0, at);
+        if (!cut) damaged += "9e99" + content.substr(at + 1);
+        write_text_files({{dir / name, damaged}});
+        try {
+          read_packing(dir / read);
+        } catch (const InputError& error) {
+          ++refused;
+          EXPECT_FALSE(error.faults().empty());
+        }
+      }
+    write_text_files({{dir / name, content}});
+  }
+  EXPECT_GT(refused, 50);
+}
+
+TEST(PackingFile, CellOfOtherUnitsIsRefused) {
+  Directory dir;
+  write_text_files({{dir / "g.csv", "id,x,y,r\n1,0,0,1\n"}, {dir / "g.net", "cell 1e-4 1\ngrain 1 0 0 1\n"}});
+  PackingReading reading;
+  reading.box = {1, 0.09};
+  EXPECT_THAT(faults_of(dir / "g.csv", reading), HasSubstr("below 0.1 of the largest radius"));
+  reading.box = {1, 0.11};
+  EXPECT_EQ(faults_of(dir / "g.csv", reading), "accepted");
+  EXPECT_THAT(faults_of(dir / "g.net"), HasSubstr("g.net:1: cell: an edge is below 0.1 of the largest radius"));
+  write_text_files({{dir / "g.csv", "id,x,y,r\n1,1e9,0,1\n"}});
+  EXPECT_THAT(faults_of(dir / "g.csv", reading), HasSubstr("1e8 cells away"));
+}
+
 TEST(PackingFile, IsKnownByItsContent) {
   Directory dir;
   write_text_files({{dir / "state.csv", std::string("\x89HDF\r\n\x1a\n", 8)},
