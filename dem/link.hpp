@@ -12,6 +12,16 @@
 
 namespace isostat {
 
+// a b + c; the kernels specialise it to a fused instruction where the machine has one.
+template <class Real>
+struct MulAdd {
+  static Real of(Real a, Real b, Real c) { return a * b + c; }
+};
+template <class Real>
+inline Real mul_add(Real a, Real b, Real c) {
+  return MulAdd<Real>::of(a, b, c);
+}
+
 // The part of the frame that needs only the branch vector and R_i + R_j. The lever arms are proportional,
 // l_i = lever_ratio R_i with lever_ratio = |r_ij| / (R_i + R_j), not R_i: with the radii a rigid rotation of
 // overlapping disks would not be a null vector of G.
@@ -44,7 +54,7 @@ struct LinkLoad {
 template <class Real>
 inline PairFrame<Real> pair_frame(Real dx, Real dy, Real radius_sum) {
   using std::sqrt;
-  const Real distance = sqrt(dx * dx + dy * dy);
+  const Real distance = sqrt(mul_add<Real>(dx, dx, dy * dy));
   const Real q = Real(1.0) / (distance * radius_sum);
   const Real inverse = q * radius_sum;
   return {dx * inverse, dy * inverse, distance, distance - radius_sum, q * distance * distance};
@@ -60,7 +70,8 @@ inline LinkFrame<Real> link_frame(Real dx, Real dy, Real radius_i, Real radius_j
 template <class Real>
 inline LinkVelocity<Real> pair_velocity(const PairFrame<Real>& f, Real dvx, Real dvy, Real surface_sum,
                                         Real spin_difference) {
-  return {f.nx * dvx + f.ny * dvy, f.nx * dvy - f.ny * dvx - f.lever_ratio * surface_sum, spin_difference};
+  const Real turn = mul_add<Real>(-f.ny, dvx, f.nx * dvy);
+  return {mul_add<Real>(f.nx, dvx, f.ny * dvy), mul_add<Real>(-f.lever_ratio, surface_sum, turn), spin_difference};
 }
 
 template <class Real>

@@ -226,7 +226,7 @@ void NeighbourLists::filter_inner(const BodiesStore& bodies, const std::vector<P
   std::vector<std::size_t> begin(segments + 1, 0);
   for (std::size_t s = 0; s < segments; ++s)
     begin[s + 1] = begin[s] + (count[s] + kPairBatch - 1) / kPairBatch * kPairBatch;
-  const auto pad_i = static_cast<std::int32_t>(bodies_), pad_j = static_cast<std::int32_t>(bodies_ + 1);
+  const kernel::RowOffset pad_i = row_offset(bodies_), pad_j = row_offset(bodies_ + 1);
   i_.assign(begin.back(), pad_i), j_.assign(begin.back(), pad_j), shift_.assign(begin.back(), kNoImage);
   damping_coefficient_.assign(begin.back(), 0.0), radius_sum_.assign(begin.back(), 1.0);
   tangential_.assign(begin.back(), 0.0), moment_.assign(begin.back(), 0.0);
@@ -248,7 +248,7 @@ void NeighbourLists::filter_inner(const BodiesStore& bodies, const std::vector<P
     const std::size_t k = near[m], to = fill[segment[m]]++;
     const auto i = static_cast<std::size_t>(outer_i_[k]), j = static_cast<std::size_t>(outer_j_[k]);
     const BodyConstants &a = bodies.constants[i], &b = bodies.constants[j];
-    i_[to] = outer_i_[k], j_[to] = outer_j_[k], shift_[to] = outer_shift_[k];
+    i_[to] = row_offset(i), j_[to] = row_offset(j), shift_[to] = outer_shift_[k];
     radius_sum_[to] = a.radius + b.radius;
     // zeta times the critical damping of the pair (Gilabert 2007, Eq. 6)
     damping_coefficient_[to] = damping_ * std::sqrt(4 * stiffness_ / (a.inverse_mass + b.inverse_mass));

@@ -57,7 +57,8 @@ class NeighbourLists {
   template <class Visit>  // visit(i, j, shift code, T, M) for every listed pair, in list order
   void for_each(Visit&& visit) const {
     for (std::size_t k = 0; k < i_.size(); ++k)
-      if (static_cast<std::size_t>(i_[k]) < bodies_) visit(i_[k], j_[k], shift_[k], tangential_[k], moment_[k]);
+      if (body_at(i_[k]) < static_cast<std::int32_t>(bodies_))
+        visit(body_at(i_[k]), body_at(j_[k]), shift_[k], tangential_[k], moment_[k]);
   }
 
   void remember(SolverMemory& memory) const;
@@ -79,6 +80,11 @@ class NeighbourLists {
   std::size_t segment_of(std::int32_t i, std::int32_t j, std::uint8_t shift) const;
   int chunk_of(std::int32_t body) const;
 
+  static std::int32_t body_at(kernel::RowOffset o) { return static_cast<std::int32_t>(o / kernel::kRowWidth); }
+  static kernel::RowOffset row_offset(std::size_t body) {
+    return static_cast<kernel::RowOffset>(body * kernel::kRowWidth);
+  }
+
   std::size_t bodies_;
   int chunks_;
   double smallest_diameter_ = 0, largest_diameter_ = 0, mean_diameter_ = 0;  // [a]
@@ -91,7 +97,7 @@ class NeighbourLists {
   std::vector<std::int32_t> outer_i_, outer_j_;
   std::vector<std::uint8_t> outer_shift_;
 
-  AlignedVector<std::int32_t> i_, j_;
+  AlignedVector<kernel::RowOffset> i_, j_;
   AlignedVector<std::uint8_t> shift_;
   AlignedVector<double> damping_coefficient_, radius_sum_, tangential_, moment_;
   std::vector<PairGroup> phases_[kPhases];

@@ -21,8 +21,8 @@ enum class Tally { nothing, stress, energy };
 // pair of two far bodies.
 inline constexpr std::size_t kPairBatch = 8;
 struct PairArrays {
-  const std::int32_t* i = nullptr;
-  const std::int32_t* j = nullptr;
+  const std::uint32_t* i = nullptr;        // offset of the body's row: kernel::RowOffset
+  const std::uint32_t* j = nullptr;
   const std::uint8_t* shift = nullptr;     // image code 0..8 -> offset table; read in image segments only
   const double* damping = nullptr;         // eta [F0 T0/a]
   const double* radius_sum = nullptr;      // R_i + R_j [a]

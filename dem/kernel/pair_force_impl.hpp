@@ -30,7 +30,8 @@ ISOSTAT_INLINE V contact_time(V gap, V normal_displacement) {
 }
 
 template <class V, class Law, Tally kTally, bool kImages>
-PairForceTally pair_forces(const PairForceInput& in) {
+PairForceTally pair_forces(const PairForceInput& input) {
+  const PairForceInput in = input;  // a copy that no store can alias: its fields stay in registers
   const LawParameters& law = in.law;
   const V dt(in.time_step);
   V virial_x(0.0), virial_y(0.0), viscous(0.0), sliding(0.0), rolling(0.0);
@@ -42,10 +43,10 @@ PairForceTally pair_forces(const PairForceInput& in) {
       d.y += image_offset<V>(in, k, 1);
     }
     if constexpr (kTally != Tally::nothing) {
-      d.u = mul_add(V(in.flow_half[0]), d.x, d.u);
-      d.v = mul_add(V(in.flow_half[1]), d.y, d.v);
-      d.p = mul_add(V(in.flow_now[0]), d.x, d.p);
-      d.q = mul_add(V(in.flow_now[1]), d.y, d.q);
+      d.u = mul_add<V>(V(in.flow_half[0]), d.x, d.u);
+      d.v = mul_add<V>(V(in.flow_half[1]), d.y, d.v);
+      d.p = mul_add<V>(V(in.flow_now[0]), d.x, d.p);
+      d.q = mul_add<V>(V(in.flow_now[1]), d.y, d.q);
     }
     const PairFrame<V> f = pair_frame<V>(d.x, d.y, load<V>(in.pairs.radius_sum + k));
     const auto contact = f.gap < V(0.0);
@@ -54,7 +55,7 @@ PairForceTally pair_forces(const PairForceInput& in) {
     V normal = repulsion;
     if constexpr (Law::Adhesion::acts) normal += Law::Adhesion::force(law, f.gap);
     if constexpr (Law::Damping::acts) {
-      const V receding = f.nx * d.p + f.ny * d.q;
+      const V receding = mul_add<V>(f.nx, d.p, f.ny * d.q);
       V damping = Law::Damping::force(load<V>(in.pairs.damping + k), receding);
       where(!contact, damping) = V(0.0);
       normal += damping;
@@ -81,11 +82,11 @@ PairForceTally pair_forces(const PairForceInput& in) {
       }
     }
 
-    const V fx = f.nx * normal - f.ny * tangential;
-    const V fy = f.ny * normal + f.nx * tangential;
+    const V fx = mul_add<V>(-f.ny, tangential, f.nx * normal);
+    const V fy = mul_add<V>(f.nx, tangential, f.ny * normal);
     if constexpr (kTally != Tally::nothing) {
-      virial_x = mul_add(fx, d.x, virial_x);
-      virial_y = mul_add(fy, d.y, virial_y);
+      virial_x = mul_add<V>(fx, d.x, virial_x);
+      virial_y = mul_add<V>(fy, d.y, virial_y);
     }
     add_loads(in.loads, in.pairs.i + k, in.pairs.j + k, fx, fy, -(f.lever_ratio * tangential), moment);
   }

@@ -8,6 +8,8 @@
 #pragma once
 #include <cstdint>
 #include <experimental/simd>
+
+#include "dem/link.hpp"
 #if defined(__AVX2__)
 #include <immintrin.h>
 #endif
@@ -20,6 +22,14 @@ namespace isostat::kernel {
 
 inline constexpr int kRowWidth = 8, kLoadWidth = 4;  // doubles
 
+// Pairs name bodies by the offset of their row in doubles: body k is at rows[8 k] and loads[4 k], addresses that cost
+// one load and no arithmetic.
+using RowOffset = std::uint32_t;
+ISOSTAT_INLINE const double* row_at(const double* rows, RowOffset o) { return rows + std::size_t{o}; }
+ISOSTAT_INLINE double* load_at(double* loads, RowOffset o) {
+  return reinterpret_cast<double*>(reinterpret_cast<char*>(loads) + std::size_t{o} * (kLoadWidth * sizeof(double) / kRowWidth));
+}
+
 template <class V>
 struct PairDifference {
   V x, y, u, v, surface_sum, spin, p, q;  // j minus i; surface_sum is R_i w_i + R_j w_j
@@ -28,29 +38,27 @@ struct PairDifference {
 namespace stdx = std::experimental;
 using Scalar = stdx::simd<double, stdx::simd_abi::scalar>;
 
-ISOSTAT_INLINE Scalar mul_add(Scalar a, Scalar b, Scalar c) { return a * b + c; }
-
-ISOSTAT_INLINE PairDifference<Scalar> load_differences(const double* rows, const std::int32_t* i, const std::int32_t* j,
+ISOSTAT_INLINE PairDifference<Scalar> load_differences(const double* rows, const RowOffset* i, const RowOffset* j,
                                                Scalar) {
-  const double* a = rows + std::ptrdiff_t{kRowWidth} * *i;
-  const double* b = rows + std::ptrdiff_t{kRowWidth} * *j;
+  const double* a = row_at(rows, *i);
+  const double* b = row_at(rows, *j);
   return {b[0] - a[0], b[1] - a[1], b[2] - a[2], b[3] - a[3], b[4] + a[4], b[5] - a[5], b[6] - a[6], b[7] - a[7]};
 }
 
-ISOSTAT_INLINE void add_loads(double* loads, const std::int32_t* i, const std::int32_t* j, Scalar fx, Scalar fy, Scalar a,
+ISOSTAT_INLINE void add_loads(double* loads, const RowOffset* i, const RowOffset* j, Scalar fx, Scalar fy, Scalar a,
                       Scalar b) {
-  double* on_i = loads + std::ptrdiff_t{kLoadWidth} * *i;
-  double* on_j = loads + std::ptrdiff_t{kLoadWidth} * *j;
+  double* on_i = load_at(loads, *i);
+  double* on_j = load_at(loads, *j);
   on_i[0] -= fx[0], on_i[1] -= fy[0], on_i[2] += a[0], on_i[3] -= b[0];
   on_j[0] += fx[0], on_j[1] += fy[0], on_j[2] += a[0], on_j[3] += b[0];
 }
 
 #if defined(__AVX2__)
-ISOSTAT_INLINE void add_load_pair(double* loads, std::int32_t i, std::int32_t j, __m256d f) {
-  const __m256d sign = _mm256_setr_pd(-0.0, -0.0, 0.0, -0.0);
-  double* on_i = loads + std::ptrdiff_t{kLoadWidth} * i;
-  double* on_j = loads + std::ptrdiff_t{kLoadWidth} * j;
-  _mm256_store_pd(on_i, _mm256_add_pd(_mm256_load_pd(on_i), _mm256_xor_pd(f, sign)));
+ISOSTAT_INLINE void add_load_pair(double* loads, RowOffset i, RowOffset j, __m256d f) {
+  const __m256d sign = _mm256_setr_pd(-1, -1, 1, -1);
+  double* on_i = load_at(loads, i);
+  double* on_j = load_at(loads, j);
+  _mm256_store_pd(on_i, _mm256_fmadd_pd(f, sign, _mm256_load_pd(on_i)));
   _mm256_store_pd(on_j, _mm256_add_pd(_mm256_load_pd(on_j), f));
 }
 #endif
@@ -58,17 +66,13 @@ ISOSTAT_INLINE void add_load_pair(double* loads, std::int32_t i, std::int32_t j,
 #if defined(__AVX512F__)
 using Native = stdx::simd<double, stdx::simd_abi::__avx512>;
 
-ISOSTAT_INLINE Native mul_add(Native a, Native b, Native c) {
-  return Native(_mm512_fmadd_pd(static_cast<__m512d>(a), static_cast<__m512d>(b), static_cast<__m512d>(c)));
-}
-
-ISOSTAT_INLINE PairDifference<Native> load_differences(const double* rows, const std::int32_t* i, const std::int32_t* j,
+ISOSTAT_INLINE PairDifference<Native> load_differences(const double* rows, const RowOffset* i, const RowOffset* j,
                                                Native) {
   const __m512d sign = _mm512_setr_pd(-1, -1, -1, -1, 1, -1, -1, -1);
   __m512d r[8];
   for (int k = 0; k < 8; ++k) {
-    const __m512d a = _mm512_load_pd(rows + std::ptrdiff_t{kRowWidth} * i[k]);
-    const __m512d b = _mm512_load_pd(rows + std::ptrdiff_t{kRowWidth} * j[k]);
+    const __m512d a = _mm512_load_pd(row_at(rows, i[k]));
+    const __m512d b = _mm512_load_pd(row_at(rows, j[k]));
     r[k] = _mm512_fmadd_pd(a, sign, b);
   }
   __m512d s[8], t[8];
@@ -87,7 +91,7 @@ ISOSTAT_INLINE PairDifference<Native> load_differences(const double* rows, const
   return {even(0), even(1), even(2), even(3), odd(0), odd(1), odd(2), odd(3)};
 }
 
-ISOSTAT_INLINE void add_loads(double* loads, const std::int32_t* i, const std::int32_t* j, Native fx, Native fy, Native a,
+ISOSTAT_INLINE void add_loads(double* loads, const RowOffset* i, const RowOffset* j, Native fx, Native fy, Native a,
                       Native b) {
   const __m512d xy_lo = _mm512_unpacklo_pd(static_cast<__m512d>(fx), static_cast<__m512d>(fy));
   const __m512d xy_hi = _mm512_unpackhi_pd(static_cast<__m512d>(fx), static_cast<__m512d>(fy));
@@ -110,10 +114,6 @@ ISOSTAT_INLINE void add_loads(double* loads, const std::int32_t* i, const std::i
 #elif defined(__AVX2__)
 using Native = stdx::simd<double, stdx::simd_abi::__avx>;
 
-ISOSTAT_INLINE Native mul_add(Native a, Native b, Native c) {
-  return Native(_mm256_fmadd_pd(static_cast<__m256d>(a), static_cast<__m256d>(b), static_cast<__m256d>(c)));
-}
-
 struct FourColumns {
   Native c0, c1, c2, c3;
 };
@@ -124,13 +124,13 @@ ISOSTAT_INLINE FourColumns transpose(const __m256d r[4]) {
           Native(_mm256_permute2f128_pd(s0, s2, 0x31)), Native(_mm256_permute2f128_pd(s1, s3, 0x31))};
 }
 
-ISOSTAT_INLINE PairDifference<Native> load_differences(const double* rows, const std::int32_t* i, const std::int32_t* j,
+ISOSTAT_INLINE PairDifference<Native> load_differences(const double* rows, const RowOffset* i, const RowOffset* j,
                                                Native) {
   const __m256d sign = _mm256_setr_pd(1, -1, -1, -1);
   __m256d lo[4], hi[4];
   for (int k = 0; k < 4; ++k) {
-    const double* a = rows + std::ptrdiff_t{kRowWidth} * i[k];
-    const double* b = rows + std::ptrdiff_t{kRowWidth} * j[k];
+    const double* a = row_at(rows, i[k]);
+    const double* b = row_at(rows, j[k]);
     lo[k] = _mm256_sub_pd(_mm256_load_pd(b), _mm256_load_pd(a));
     hi[k] = _mm256_fmadd_pd(_mm256_load_pd(a + 4), sign, _mm256_load_pd(b + 4));
   }
@@ -138,7 +138,7 @@ ISOSTAT_INLINE PairDifference<Native> load_differences(const double* rows, const
   return {l.c0, l.c1, l.c2, l.c3, h.c0, h.c1, h.c2, h.c3};
 }
 
-ISOSTAT_INLINE void add_loads(double* loads, const std::int32_t* i, const std::int32_t* j, Native fx, Native fy, Native a,
+ISOSTAT_INLINE void add_loads(double* loads, const RowOffset* i, const RowOffset* j, Native fx, Native fy, Native a,
                       Native b) {
   const __m256d columns[4] = {static_cast<__m256d>(fx), static_cast<__m256d>(fy), static_cast<__m256d>(a),
                               static_cast<__m256d>(b)};
@@ -153,3 +153,21 @@ using Native = Scalar;
 #endif
 
 }  // namespace isostat::kernel
+
+#if defined(__AVX512F__)
+template <>
+struct isostat::MulAdd<isostat::kernel::Native> {
+  using V = isostat::kernel::Native;
+  ISOSTAT_INLINE static V of(V a, V b, V c) {
+    return V(_mm512_fmadd_pd(static_cast<__m512d>(a), static_cast<__m512d>(b), static_cast<__m512d>(c)));
+  }
+};
+#elif defined(__AVX2__)
+template <>
+struct isostat::MulAdd<isostat::kernel::Native> {
+  using V = isostat::kernel::Native;
+  ISOSTAT_INLINE static V of(V a, V b, V c) {
+    return V(_mm256_fmadd_pd(static_cast<__m256d>(a), static_cast<__m256d>(b), static_cast<__m256d>(c)));
+  }
+};
+#endif

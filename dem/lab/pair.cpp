@@ -46,7 +46,7 @@ class HeldPair {
     rows_.assign(4 * kernel::kRowWidth, 0.0);
     loads_.assign(4 * kernel::kLoadWidth, 0.0);
     rows_[3 * kernel::kRowWidth] = 1e6;
-    i_[0] = 0, j_[0] = 1;
+    i_[0] = 0, j_[0] = kernel::kRowWidth;
     set_gap(-overlap);
   }
   void set_gap(double gap) { rows_[kernel::kRowWidth] = 1 + gap; }
@@ -69,7 +69,8 @@ class HeldPair {
   LawParameters law_;
   PairForceKernel kernel_ = nullptr;
   AlignedVector<double> rows_, loads_;
-  alignas(64) std::int32_t i_[kPairBatch] = {2, 2, 2, 2, 2, 2, 2, 2}, j_[kPairBatch] = {3, 3, 3, 3, 3, 3, 3, 3};
+  alignas(64) kernel::RowOffset i_[kPairBatch] = {16, 16, 16, 16, 16, 16, 16, 16},
+                                j_[kPairBatch] = {24, 24, 24, 24, 24, 24, 24, 24};  // the padding pair
   std::uint8_t shift_[kPairBatch] = {4, 4, 4, 4, 4, 4, 4, 4};
   alignas(64) double damping_[kPairBatch] = {}, sum_[kPairBatch] = {1, 1, 1, 1, 1, 1, 1, 1};
   alignas(64) double tangential_[kPairBatch] = {}, moment_[kPairBatch] = {};

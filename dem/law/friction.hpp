@@ -6,6 +6,7 @@
 #include <experimental/simd>
 #include <string_view>
 
+#include "dem/link.hpp"
 #include "dem/scene.hpp"
 
 namespace isostat::law {
@@ -42,7 +43,7 @@ struct RollingElastoplastic {
 template <class Axis, class Real>
 Real spring(const LawParameters& p, Real force, Real displacement, Real repulsion, Real* released = nullptr) {
   const Real limit = Real(Axis::coefficient(p)) * repulsion;
-  const Real trial = force - Real(Axis::stiffness(p)) * displacement;
+  const Real trial = mul_add<Real>(Real(-Axis::stiffness(p)), displacement, force);
   const Real clamped = stdx::min(stdx::max(trial, -limit), limit);
   if (released) *released = trial * trial - clamped * clamped;
   return clamped;
