@@ -68,6 +68,7 @@ class Parser {
   Parser(std::string name) : name_(std::move(name)) {}
 
   void read(std::string_view text) {
+    refuse_deep_keys(text);
     try {
       tables_.push_back(toml::parse(text, std::string_view(name_)));
     } catch (const toml::parse_error& error) {
@@ -133,6 +134,18 @@ class Parser {
   void fault(const std::string& file, int line, const std::string& key, const std::string& value,
              const std::string& rule) {
     faults_.push_back({file, line, key, value, rule});
+  }
+
+  // toml++ nests one table for each component of a dotted key and unwinds them by recursion: a key of a hundred
+  // thousand components would exhaust the stack. A line with few dots has no such key.
+  void refuse_deep_keys(std::string_view text) const {
+    constexpr int kMostDots = 2000;
+    int line = 1, dots = 0;
+    for (const char c : text) {
+      if (c == '\n') ++line, dots = 0;
+      if (c == '.' && ++dots > kMostDots)
+        throw InputError(name_, line, "", "", "at most " + std::to_string(kMostDots) + " points in a line; break it");
+    }
   }
 
   void flatten(const toml::table& table, const std::string& parent) {
