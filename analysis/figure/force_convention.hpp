@@ -1,0 +1,37 @@
+// Which colour and width a link gets, and which disks are grey: Gilabert 2007, Fig. 2, and with a threshold Figs. 11,
+// 12 and 19-22.
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "dem/packing.hpp"
+
+namespace isostat {
+
+enum class ForceMeasure { normal, total };  // |N|, or |F| = sqrt(N^2 + T^2)
+
+struct ForceConvention {
+  ForceMeasure width = ForceMeasure::normal;  // what line width is proportional to
+  std::optional<double> threshold;            // [force of the packing] links with |F| below it are blue
+};
+
+enum class LinkColor {
+  compressive,  // red, N >= 0
+  tensile,      // green, N < 0
+  distant       // blue: not in contact; with a threshold instead: |F| below it
+};
+LinkColor link_color(const Link<2>& link, const ForceConvention& convention);
+
+double total_force(const Link<2>& link);
+double drawn_force(const Link<2>& link, const ForceConvention& convention);  // what the width shows
+
+enum class DiskShade {
+  plain,
+  rattler,    // carries no force (given by the caller)
+  unstressed  // with a threshold: no link of the disk reaches it
+};
+// One a body. `rattler` has one entry a body, or none at all.
+std::vector<DiskShade> disk_shades(const Packing<2>& packing, const ForceConvention& convention,
+                                   const std::vector<bool>& rattler);
+
+}  // namespace isostat

@@ -1,0 +1,62 @@
+// Picture of a packing: its grains, the forces between them, or their velocities.
+#pragma once
+#include <vector>
+
+#include "analysis/figure/canvas.hpp"
+#include "analysis/figure/force_convention.hpp"
+#include "analysis/figure/legend.hpp"
+#include "analysis/figure/picture_frame.hpp"
+#include "dem/packing.hpp"
+
+namespace isostat {
+
+enum class PictureKind {
+  grains,   // disks, and the links between them as thin lines
+  forces,   // force_convention.hpp
+  velocity  // arrows, and disks coloured by spin
+};
+
+struct PictureOptions {
+  PictureKind kind = PictureKind::grains;
+  ForceConvention convention;
+  double force_scale = 1;                       // F1 = max(F0, a P): a link of this force is kWidthAtScale wide
+  RichText force_scale_label;                   // its name; empty: written as a number
+  RichText length_unit, speed_unit, spin_unit;  // for the scale bars; empty for a foreign packing
+  std::vector<bool> rattler;                    // one a body, or none
+};
+
+inline constexpr double kWidthAtScale = 0.3;  // [a, the largest diameter] line width of a force F1: "comparable to
+                                              // particle radii" (Sec. IV.B.1)
+
+class PackingPicture {
+ public:
+  // Keeps a reference to the packing. Throws std::invalid_argument for a packing without bodies.
+  PackingPicture(const Packing<2>& packing, PictureOptions options);
+  Vec2 size() const { return size_; }  // [pt] of the page
+  void draw(Canvas& canvas) const;
+
+ private:
+  void draw_disks(Canvas& canvas) const;
+  void draw_links(Canvas& canvas) const;
+  void draw_forces(Canvas& canvas) const;
+  void draw_arrows(Canvas& canvas) const;
+  void segments(Canvas& canvas, const std::vector<std::pair<const Link<2>*, double>>& links, const Color& color) const;
+  double force_width(double force) const;  // [pt]
+  double outline_width() const;            // [pt]
+  std::vector<LegendItem> legend_items() const;
+  void choose_motion_scales();
+
+  const Packing<2>& packing_;
+  PictureOptions options_;
+  PictureFrame frame_;
+  std::vector<DiskShade> shade_;
+  double largest_diameter_ = 0;
+  double arrow_scale_ = 0;                           // [pt per unit of velocity]
+  double reference_speed_ = 0, reference_spin_ = 0;  // of the scale arrow, and the end of the colour bar
+  double text_size_ = 9;
+  Vec2 size_{};
+  Vec2 legend_place_{};
+  std::vector<Legend> legend_;
+};
+
+}  // namespace isostat
