@@ -132,6 +132,7 @@ class CairoCanvas final : public Canvas {
       cairo_show_text(cr_, run.text.c_str());
       x += advance;
     }
+    cairo_new_path(cr_);  // show_text leaves a current point behind
     cairo_restore(cr_);
   }
 

@@ -34,8 +34,8 @@ constexpr Color curve_color(std::size_t index) { return kCurves[index % kCurves.
 
 // -1 blue, 0 nearly white, +1 orange-red; outside it saturates.
 constexpr Color diverging(double t) {
-  constexpr Color cold = rgb(0x2255a4), cool = rgb(0x8fb6de), middle = rgb(0xf7f5f0), warm = rgb(0xf3a878),
-                  hot = rgb(0xb8261f);
+  constexpr Color cold = rgb(0x3b6db5), cool = rgb(0xa3c3e4), middle = rgb(0xf8f7f3), warm = rgb(0xf6bd98),
+                  hot = rgb(0xcf4a3c);
   if (t >= 1) return hot;
   if (t >= .5) return blend(warm, hot, 2 * t - 1);
   if (t >= 0) return blend(middle, warm, 2 * t);

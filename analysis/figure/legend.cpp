@@ -61,7 +61,7 @@ LegendItem text_item(RichText label) {
   return {0, [](Canvas&, const Vec2&) {}, std::move(label)};
 }
 
-LegendItem color_bar_item(double em, std::function<Color(double)> map, RichText low, RichText high, RichText label) {
+LegendItem color_bar_item(double em, std::function<Color(double)> map, RichText low, RichText high) {
   constexpr int kSteps = 48;
   const double bar = 8 * em, left = text_width(low, em) + 0.4 * em, right = text_width(high, em) + 0.4 * em;
   return {left + bar + right,
@@ -75,7 +75,7 @@ LegendItem color_bar_item(double em, std::function<Color(double)> map, RichText 
             canvas.text({{p[0], p[1] + kBaseline * em}}, low, {em, Anchor::start, kInk, false});
             canvas.text({{x + bar + 0.4 * em, p[1] + kBaseline * em}}, high, {em, Anchor::start, kInk, false});
           },
-          std::move(label)};
+          {}};
 }
 
 Legend::Legend(std::vector<LegendItem> items, double text_size, double width)

@@ -19,7 +19,7 @@ LegendItem force_scale_item(double thickness, double em, RichText label);  // a 
 LegendItem disk_item(double em, const Paint& paint, RichText label);
 LegendItem length_scale_item(double length, RichText label);  // |---|
 LegendItem text_item(RichText label);
-LegendItem color_bar_item(double em, std::function<Color(double)> map, RichText low, RichText high, RichText label);
+LegendItem color_bar_item(double em, std::function<Color(double)> map, RichText low, RichText high);
 
 class Legend {
  public:

@@ -29,6 +29,14 @@ double nice_below(double x) {
   return decade;
 }
 
+double nice_above(double x) {
+  const double below = nice_below(x);
+  if (x <= below * (1 + 1e-12)) return below;
+  for (const double step : {2.0, 2.5})  // 1 -> 2 -> 5 -> 10
+    if (nice_below(step * below * (1 + 1e-9)) > below) return nice_below(step * below * (1 + 1e-9));
+  return 10 * below;
+}
+
 RichText number_text(double x, int digits) {
   if (!std::isfinite(x)) return plain("?");
   char buffer[64];

@@ -6,6 +6,7 @@ namespace isostat {
 
 // Largest of 1, 2, 5 times a power of ten that is not above x > 0.
 double nice_below(double x);
+double nice_above(double x);  // the smallest that is not below
 
 // 0.05, 1200, 3 x 10^{-5}: up to `digits` significant ones, no trailing zeros.
 RichText number_text(double x, int digits = 4);

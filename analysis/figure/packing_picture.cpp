@@ -40,7 +40,7 @@ PackingPicture::PackingPicture(const Packing<2>& packing, PictureOptions options
 }
 
 double PackingPicture::force_width(double force) const {
-  return kWidthAtScale * largest_diameter_ * frame_.scale() * force / options_.force_scale;
+  return options_.width_at_scale * largest_diameter_ * frame_.scale() * force / options_.force_scale;
 }
 
 double PackingPicture::outline_width() const {
@@ -116,7 +116,7 @@ void PackingPicture::segments(Canvas& canvas, const std::vector<std::pair<const 
 }
 
 void PackingPicture::draw_links(Canvas& canvas) const {
-  const double width = std::clamp(0.09 * frame_.mean_diameter() * frame_.scale(), 0.25, 2.5);
+  const double width = std::clamp(0.06 * frame_.mean_diameter() * frame_.scale(), 0.2, 2.0);
   std::vector<std::pair<const Link<2>*, double>> closed, distant;
   for (const Link<2>& link : packing_.links)
     (link.kind == LinkKind::distant ? distant : closed).emplace_back(&link, width);
@@ -156,7 +156,7 @@ void PackingPicture::choose_motion_scales() {
   std::nth_element(spin.begin(), rank, spin.end());
   double limit = *rank;
   if (limit == 0) limit = *std::max_element(spin.begin(), spin.end());
-  if (limit > 0) reference_spin_ = nice_below(limit);
+  if (limit > 0) reference_spin_ = nice_above(limit);
 }
 
 namespace {
@@ -240,8 +240,8 @@ std::vector<LegendItem> PackingPicture::legend_items() const {
       items.push_back(text_item(plain("at rest")));
     }
     if (reference_spin_ > 0)
-      items.push_back(color_bar_item(em, diverging, number_text(-reference_spin_),
-                                     with_unit(reference_spin_, options_.spin_unit), plain("spin")));
+      items.push_back(color_bar_item(em, diverging, plain("spin  ") + number_text(-reference_spin_),
+                                     with_unit(reference_spin_, options_.spin_unit)));
   }
   const double bar = nice_below(std::max(0.16 * frame_.box().width, 36.0) / frame_.scale());
   items.push_back(length_scale_item(bar * frame_.scale(), with_unit(bar, options_.length_unit)));

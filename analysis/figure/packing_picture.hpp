@@ -16,17 +16,19 @@ enum class PictureKind {
   velocity  // arrows, and disks coloured by spin
 };
 
+// Line widths in units of a, the largest diameter. Forces of order F0 are about as wide as a radius (Sec. IV.B.1); the
+// mean force without cohesion is slightly above a P, and the strong chains a few times it.
+inline constexpr double kWidthAtF0 = 0.3, kWidthAtAP = 0.11;
+
 struct PictureOptions {
   PictureKind kind = PictureKind::grains;
   ForceConvention convention;
-  double force_scale = 1;                       // F1 = max(F0, a P): a link of this force is kWidthAtScale wide
+  double force_scale = 1;                       // F1 = max(F0, a P)
+  double width_at_scale = kWidthAtF0;           // [a] line width of a force F1; kWidthAtAP where F1 = a P
   RichText force_scale_label;                   // its name; empty: written as a number
   RichText length_unit, speed_unit, spin_unit;  // for the scale bars; empty for a foreign packing
   std::vector<bool> rattler;                    // one a body, or none
 };
-
-inline constexpr double kWidthAtScale = 0.3;  // [a, the largest diameter] line width of a force F1: "comparable to
-                                              // particle radii" (Sec. IV.B.1)
 
 class PackingPicture {
  public:
