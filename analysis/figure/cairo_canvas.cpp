@@ -77,15 +77,13 @@ class CairoCanvas final : public Canvas {
   }
   void unclip() override { cairo_restore(cr_); }
 
-  // One by one: as a single path, overlapping disks would be filled and outlined as their union, in a sweep over all
-  // edges at once.
+  // A few dozen marks a path: Cairo keeps every operation of a PDF until its end, and sorts all edges of a path.
   void disks(std::span<const DiskMark> marks, const Paint& style) override {
-    for (const DiskMark& d : marks) {
+    for_chunks(marks, style, [&](const DiskMark& d) {
       cairo_new_sub_path(cr_);
       cairo_arc(cr_, d.center[0], d.center[1], d.radius, 0, 2 * std::numbers::pi);
       cairo_close_path(cr_);
-      paint(style);
-    }
+    });
   }
 
   void segments(std::span<const SegmentMark> marks, const Color& c) override {
@@ -106,11 +104,11 @@ class CairoCanvas final : public Canvas {
   }
 
   void polygons(std::span<const Polygon> marks, const Paint& style) override {
-    for (const Polygon& polygon : marks) {
+    for_chunks(marks, style, [&](const Polygon& polygon) {
+      cairo_new_sub_path(cr_);
       for (const Vec2& p : polygon) cairo_line_to(cr_, p[0], p[1]);
       cairo_close_path(cr_);
-      paint(style);
-    }
+    });
   }
 
   void rectangle(const Rect& r, const Paint& style) override {
@@ -152,6 +150,15 @@ class CairoCanvas final : public Canvas {
 
  private:
   void color(const Color& c) { cairo_set_source_rgb(cr_, c.red, c.green, c.blue); }
+
+  template <class Mark, class AddToPath>
+  void for_chunks(std::span<const Mark> marks, const Paint& style, AddToPath&& add) {
+    constexpr std::size_t kChunk = 64;
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+      add(marks[i]);
+      if ((i + 1) % kChunk == 0 || i + 1 == marks.size()) paint(style);
+    }
+  }
 
   void stroke(const Stroke& s) {
     color(s.color);

@@ -13,6 +13,17 @@ constexpr double kMargin = 12;         // [pt] around the page
 constexpr double kHairline = 0.45;     // [pt] least width of blue lines, which tell a kind and not a force
 constexpr double kSmallestPage = 360;  // [pt] room for the legend
 
+// Largest reach of the arrows beyond the disks, if the rms speed is drawn as one mean diameter.
+double arrow_reach(const Bodies<2>& b) {
+  double square = 0, largest = 0, diameter = 0;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    square += dot(b.velocity[i], b.velocity[i]), largest = std::max(largest, norm(b.velocity[i]));
+    diameter += 2 * b.radius[i];
+  }
+  const auto n = static_cast<double>(b.size());
+  return square > 0 ? std::max(0.0, diameter / n * (largest / std::sqrt(square / n) - 0.5)) : 0;
+}
+
 double clamp_text(double longer_edge) { return std::clamp(longer_edge / 62, 8.5, 20.0); }
 
 RichText with_unit(double x, const RichText& unit) {
@@ -22,16 +33,18 @@ RichText with_unit(double x, const RichText& unit) {
 }  // namespace
 
 PackingPicture::PackingPicture(const Packing<2>& packing, PictureOptions options)
-    : packing_(packing), options_(std::move(options)), frame_(packing) {
+    : packing_(packing),
+      options_(std::move(options)),
+      frame_(packing, options_.kind == PictureKind::velocity ? arrow_reach(packing.bodies) : 0) {
   for (const double r : packing.bodies.radius) largest_diameter_ = std::max(largest_diameter_, 2 * r);
   if (options_.kind == PictureKind::forces)
     shade_ = disk_shades(packing, options_.convention, options_.rattler);
   else
     shade_.assign(packing.bodies.size(), DiskShade::plain);
-  if (options_.kind == PictureKind::velocity) choose_motion_scales();
 
   const Rect box = frame_.box();
   text_size_ = clamp_text(std::max(box.width, box.height));
+  if (options_.kind == PictureKind::velocity) choose_motion_scales();
   const double width = std::max(box.width, kSmallestPage);
   frame_.place({{kMargin + (width - box.width) / 2, kMargin}});
   legend_.emplace_back(legend_items(), text_size_, width);
@@ -89,12 +102,13 @@ void PackingPicture::draw_disks(Canvas& canvas) const {
       batches[batch].push_back({frame_.page(r + offset), b.radius[i] * frame_.scale()});
     });
   }
-  const double line = outline_width();
+  // a faint outline for small disks, or it is all that one sees
+  const bool small = frame_.mean_diameter() * frame_.scale() < 6;
+  const Stroke outline{small ? blend(kDiskOutline, kWhite, 0.55) : kDiskOutline, outline_width(), {}};
   for (std::size_t k = 0; k < batches.size(); ++k) {
-    Paint paint{kGrain, Stroke{kGrainOutline, line, {}}};
-    if (options_.kind == PictureKind::forces)
-      paint = {std::array{kDisk, kRattler, kUnstressed}[k], Stroke{kDiskOutline, line, {}}};
-    if (velocity) paint = {diverging(static_cast<double>(k) / kSpinSteps - 1), Stroke{kDiskOutline, line, {}}};
+    Paint paint{kGrain, Stroke{kGrainOutline, outline.width, {}}};
+    if (options_.kind == PictureKind::forces) paint = {std::array{kDisk, kRattler, kUnstressed}[k], outline};
+    if (velocity) paint = {diverging(static_cast<double>(k) / kSpinSteps - 1), outline};
     canvas.disks(batches[k], paint);
   }
 }
@@ -148,7 +162,7 @@ void PackingPicture::choose_motion_scales() {
   const double rms = std::sqrt(square / static_cast<double>(b.size()));
   if (rms > 0) {
     arrow_scale_ = frame_.mean_diameter() * frame_.scale() / rms;
-    reference_speed_ = nice_below(1.5 * rms);
+    reference_speed_ = nice_below(std::min(1.5 * rms, 4 * text_size_ / arrow_scale_));
   }
   std::vector<double> spin;
   for (const double w : b.spin) spin.push_back(std::abs(w));

@@ -12,7 +12,7 @@ constexpr double kMargin = 0.1;                             // [mean diameter] a
 
 }  // namespace
 
-PictureFrame::PictureFrame(const Packing<2>& packing) : cell_(packing.cell) {
+PictureFrame::PictureFrame(const Packing<2>& packing, double margin) : cell_(packing.cell) {
   const Bodies<2>& b = packing.bodies;
   if (b.size() == 0) throw std::invalid_argument("a picture needs grains");
   for (const double r : b.radius) mean_diameter_ += 2 * r / static_cast<double>(b.size());
@@ -25,7 +25,7 @@ PictureFrame::PictureFrame(const Packing<2>& packing) : cell_(packing.cell) {
         low[k] = std::min(low[k], b.position[i][k] - b.radius[i]);
         high[k] = std::max(high[k], b.position[i][k] + b.radius[i]);
       }
-    const double margin = kMargin * mean_diameter_;
+    margin += kMargin * mean_diameter_;
     origin_ = low - Vec2{{margin, margin}};
     size_ = high - low + Vec2{{2 * margin, 2 * margin}};
   }

@@ -10,8 +10,9 @@ namespace isostat {
 
 class PictureFrame {
  public:
-  // Throws std::invalid_argument for a packing without bodies.
-  explicit PictureFrame(const Packing<2>& packing);
+  // `margin` [length of the packing] is left around an isolated packing, beside a narrow one of its own. Throws
+  // std::invalid_argument for a packing without bodies.
+  explicit PictureFrame(const Packing<2>& packing, double margin = 0);
 
   void place(const Vec2& top_left) { place_ = top_left; }
   double scale() const { return scale_; }  // [pt per unit length]

@@ -12,6 +12,8 @@ namespace {
 
 constexpr const char* kFontStack = "DejaVu Sans, Verdana, Arial, sans-serif";
 
+constexpr std::size_t kLongestPath = 1 << 18;  // [bytes] XML parsers refuse attributes of 10 MB
+
 std::string number(double x, int decimals = 2) {
   char buffer[64];
   const auto end = std::to_chars(buffer, buffer + sizeof buffer, x, std::chars_format::fixed, decimals).ptr;
@@ -95,10 +97,12 @@ class SvgCanvas final : public Canvas {
     if (marks.empty()) return;
     out_ += "<g fill=\"none\" stroke=\"" + hex(color) + "\" stroke-linecap=\"round\">\n";
     std::string width;
+    std::size_t start = out_.size();
     for (const SegmentMark& s : marks) {
-      if (std::string w = number(s.width, 2 + (s.width < 1)); w != width) {
+      if (std::string w = number(s.width, 2 + (s.width < 1)); w != width || out_.size() - start > kLongestPath) {
         if (!width.empty()) out_ += "\"/>\n";
         width = std::move(w);
+        start = out_.size();
         out_ += "<path stroke-width=\"" + width + "\" d=\"";
       }
       const Vec2 d = s.to - s.from;
@@ -117,8 +121,15 @@ class SvgCanvas final : public Canvas {
 
   void polygons(std::span<const Polygon> marks, const Paint& paint) override {
     if (marks.empty()) return;
-    out_ += "<path" + paint_attributes(paint) + " d=\"";
+    const std::string open = "<path" + paint_attributes(paint) + " d=\"";
+    std::size_t start = out_.size();
+    out_ += open;
     for (const Polygon& polygon : marks) {
+      if (out_.size() - start > kLongestPath) {
+        out_ += "\"/>\n";
+        start = out_.size();
+        out_ += open;
+      }
       for (std::size_t i = 0; i < polygon.size(); ++i)
         out_ += (i == 0 ? 'M' : i == 1 ? 'L' : ' ') + number(polygon[i][0]) + ',' + number(polygon[i][1]);
       out_ += 'Z';
