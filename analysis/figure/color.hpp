@@ -44,4 +44,12 @@ constexpr Color diverging(double t) {
   return cold;
 }
 
+// 0 pale, 1 dark: densities.
+constexpr Color sequential(double t) {
+  constexpr Color pale = rgb(0xe3ebf5), middle = rgb(0x4f87c2), dark = rgb(0x14224d);
+  if (t <= 0) return pale;
+  if (t < .5) return blend(pale, middle, 2 * t);
+  return t < 1 ? blend(middle, dark, 2 * t - 1) : dark;
+}
+
 }  // namespace isostat
