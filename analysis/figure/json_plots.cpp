@@ -1,0 +1,343 @@
+// Sections of `analyze` and results of `lab` as charts.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "analysis/figure/nice_numbers.hpp"
+#include "analysis/figure/plot.hpp"
+#include "analysis/figure/scattering_curve.hpp"
+#include "dem/input_error.hpp"
+
+namespace isostat {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
+
+[[noreturn]] void refuse(const std::string& path, const std::string& key, const std::string& why) {
+  throw InputError(path, 0, key, "", why);
+}
+
+const Json* find(const Json& json, std::initializer_list<const char*> keys) {
+  const Json* at = &json;
+  for (const char* key : keys) {
+    if (!at->is_object() || !at->contains(key)) return nullptr;
+    at = &(*at)[key];
+  }
+  return at;
+}
+
+// A number, null, or {"mean", "se"} of an ensemble.
+struct Value {
+  double mean = kUndefined, error = kUndefined;
+};
+Value value_of(const Json* json) {
+  if (!json) return {};
+  if (json->is_number()) return {json->get<double>(), kUndefined};
+  if (json->is_object()) return {value_of(find(*json, {"mean"})).mean, value_of(find(*json, {"se"})).mean};
+  return {};
+}
+
+struct Values {
+  std::vector<double> mean, error;
+};
+Values values_of(const Json* json) {
+  Values values;
+  if (!json || !json->is_array()) return values;
+  for (const Json& entry : *json) {
+    const Value v = value_of(&entry);
+    values.mean.push_back(v.mean), values.error.push_back(v.error);
+  }
+  return values;
+}
+
+RichText force_unit(const Json& result) {
+  const Json* force = find(result, {"units", "force"});
+  if (!force || !force->is_string()) return {};
+  return *force == "F0" ? rich("`F`_{0}") : *force == "a P" ? rich("`aP`") : plain(force->get<std::string>());
+}
+RichText over(const RichText& quantity, const RichText& unit) {
+  return unit.empty() ? quantity : quantity + plain(" / ") + unit;
+}
+
+// --- histograms of forces ---
+
+bool is_histogram(const Json* h) {
+  const Json *edges = h ? find(*h, {"edges"}) : nullptr, *density = h ? find(*h, {"density"}) : nullptr;
+  return edges && density && edges->is_array() && density->is_array() && !density->empty() &&
+         edges->size() == density->size() + 1;
+}
+
+Curve steps(const Json& histogram) {
+  Curve curve;
+  curve.style = CurveStyle::steps;
+  curve.x = values_of(find(histogram, {"edges"})).mean;
+  const Values density = values_of(find(histogram, {"density"}));
+  curve.y = density.mean, curve.error = density.error;
+  return curve;
+}
+
+bool force_histogram_applies(const Json& r) { return is_histogram(find(r, {"forces", "histograms", "N"})); }
+
+Plot force_histogram_plot(const Json& r, const std::string& path) {
+  const Json* n = find(r, {"forces", "histograms", "N"});
+  if (!is_histogram(n)) refuse(path, "forces.histograms.N", "no histogram of normal forces; run analyze --only forces");
+  const RichText unit = force_unit(r);
+  Plot plot;
+  Chart chart;
+  chart.x.title = over(rich("`N`"), unit);
+  chart.y = {rich("probability density"), true, {}, {}};
+  chart.curves.push_back(steps(*n));
+  plot.charts.push_back(std::move(chart));
+  if (const Json* total = find(r, {"forces", "histograms", "F"}); is_histogram(total)) {
+    Chart log;  // bins are decades: only they show the divergence at small forces
+    log.x = {over(rich("|`F`|"), unit), true, {}, {}};
+    log.y = {rich("probability density"), true, {}, {}};
+    log.curves.push_back(steps(*total));
+    log.curves[0].color = curve_color(2);
+    if (std::any_of(log.curves[0].y.begin(), log.curves[0].y.end(), [](double d) { return d > 0; }))
+      plot.charts.push_back(std::move(log));
+  }
+  return plot;
+}
+
+bool angle_applies(const Json& r) { return is_histogram(find(r, {"forces", "histograms", "angle"})); }
+
+Plot angle_plot(const Json& r, const std::string& path) {
+  const Json* angle = find(r, {"forces", "histograms", "angle"});
+  if (!is_histogram(angle))
+    refuse(path, "forces.histograms.angle", "no histogram of angles; run analyze --only forces");
+  Chart chart;
+  chart.x.title = rich("angle between force and normal, `θ` (degrees)");
+  chart.y.title = rich("probability density (1/degree)");
+  chart.curves.push_back(steps(*angle));
+  return {{chart}, false};
+}
+
+bool nt_applies(const Json& r) {
+  const Json *edges = find(r, {"forces", "histograms", "NT", "edges"}),
+             *density = find(r, {"forces", "histograms", "NT", "density"});
+  return edges && density && edges->is_array() && edges->size() == 2 && density->is_array() && !density->empty();
+}
+
+Plot nt_plot(const Json& r, const std::string& path) {
+  if (!nt_applies(r)) refuse(path, "forces.histograms.NT", "no pairs of forces; run analyze --only forces");
+  const Json& nt = *find(r, {"forces", "histograms", "NT"});
+  Curve cells;
+  cells.style = CurveStyle::cells;
+  cells.x = values_of(&nt["edges"][0]).mean;
+  cells.x2 = values_of(&nt["edges"][1]).mean;
+  for (const Json& row : nt["density"])
+    for (const double d : values_of(&row).mean) cells.y.push_back(d);
+  if (cells.x.size() < 2 || cells.x2.size() < 2 || cells.y.size() != (cells.x.size() - 1) * (cells.x2.size() - 1))
+    refuse(path, "forces.histograms.NT", "edges and density do not fit each other");
+  Chart chart;
+  chart.x.title = over(rich("`N`"), force_unit(r));
+  chart.y.title = over(rich("`T`"), force_unit(r));
+  chart.equal_units = true;
+  chart.curves.push_back(std::move(cells));
+  return {{chart}, false};
+}
+
+// --- coordination numbers (Figs. 3, 6) ---
+
+bool coordination_applies(const Json& r) {
+  const Json* x = find(r, {"counts", "x"});
+  return x && x->is_array() && !x->empty();
+}
+
+Plot coordination_plot(const Json& r, const std::string& path) {
+  if (!coordination_applies(r)) refuse(path, "counts.x", "no coordination numbers; run analyze --only counts");
+  const Values x = values_of(find(r, {"counts", "x"}));
+  Curve bars;
+  bars.style = CurveStyle::bars;
+  for (std::size_t k = 0; k < x.mean.size(); ++k) {
+    bars.x.push_back(static_cast<double>(k));
+    bars.y.push_back(100 * x.mean[k]), bars.error.push_back(100 * x.error[k]);
+  }
+  if (std::none_of(bars.y.begin(), bars.y.end(), [](double v) { return std::isfinite(v); }))
+    refuse(path, "counts.x", "is undefined: every grain is a rattler");
+  Chart chart;
+  chart.x.title = rich("number of interacting neighbours `k`");
+  chart.y.title = rich("`x`_{k}  (% of the grains)");
+  const Value z = value_of(find(r, {"counts", "z"}));
+  if (std::isfinite(z.mean)) chart.notes.push_back(rich("`z` = ") + number_text_with_error(z.mean, z.error));
+  chart.curves.push_back(std::move(bars));
+  return {{chart}, false};
+}
+
+// --- scattering (Fig. 23) ---
+
+bool scattering_applies(const Json& r) {
+  const Json *k = find(r, {"scattering", "k"}), *i = find(r, {"scattering", "I"});
+  return k && i && k->is_array() && i->is_array() && !k->empty() && k->size() == i->size();
+}
+
+Plot scattering_plot(const Json& r, const std::string& path) {
+  if (!scattering_applies(r)) refuse(path, "scattering", "no scattering function; run analyze --only scattering");
+  const Json& s = r["scattering"];
+  const Values intensity = values_of(find(s, {"I"})), sigma = values_of(find(s, {"sigma"}));
+  Curve points;
+  points.style = CurveStyle::points;
+  points.x = values_of(find(s, {"k"})).mean;
+  points.y = intensity.mean;
+  points.error = intensity.error;  // of an ensemble; else the error within the bin
+  for (std::size_t b = 0; b < points.error.size(); ++b)
+    if (!std::isfinite(points.error[b]) && b < sigma.mean.size()) points.error[b] = sigma.mean[b];
+  double low = INFINITY, high = 0;
+  for (std::size_t b = 0; b < points.x.size(); ++b)
+    if (points.x[b] > 0 && points.y[b] > 0) low = std::min(low, points.x[b]), high = std::max(high, points.x[b]);
+  if (!(high > 0)) refuse(path, "scattering.I", "has no positive value");
+  const bool reduced = find(r, {"units", "length"}) != nullptr;
+  Chart chart;
+  chart.x = {reduced ? rich("`ka`") : rich("`k`"), true, {}, {}};
+  chart.y = {reduced ? rich("`I`(`k`) / `a`^{2}") : rich("`I`(`k`)"), true, {}, {}};
+  chart.height = 280;
+  points.label = rich("`I`(`k`)");
+  chart.curves.push_back(std::move(points));
+  const Value d = value_of(find(s, {"fit", "d_F"})), xi = value_of(find(s, {"fit", "xi"})),
+              amplitude = value_of(find(s, {"fit", "amplitude"})), constant = value_of(find(s, {"fit", "constant"}));
+  if (std::isfinite(d.mean) && std::isfinite(xi.mean) && std::isfinite(amplitude.mean)) {
+    Curve fit;
+    fit.label = rich("fit, Eq. 28");
+    fit.color = curve_color(1);
+    constexpr int kPoints = 200;
+    for (int p = 0; p <= kPoints; ++p) {
+      const double k = low * std::pow(high / low, static_cast<double>(p) / kPoints);
+      fit.x.push_back(k);
+      fit.y.push_back(
+          scattering_curve(k, {d.mean, xi.mean, amplitude.mean, std::isfinite(constant.mean) ? constant.mean : 0}));
+    }
+    chart.curves.push_back(std::move(fit));
+    const auto error = [&](const Value& v, const char* key) {
+      return std::isfinite(v.error) ? v.error : value_of(find(s, {"fit", key})).mean;
+    };
+    chart.notes.push_back(rich("`d`_{F} = ") + number_text_with_error(d.mean, error(d, "d_F_error")));
+    chart.notes.push_back(rich(reduced ? "`ξ` / `a` = " : "`ξ` = ") +
+                          number_text_with_error(xi.mean, error(xi, "xi_error")));
+  }
+  return {{chart}, false};
+}
+
+// --- pores: how many are larger than R ---
+
+bool pores_applies(const Json& r) {
+  const Json* list = find(r, {"pores", "list"});
+  return list && list->is_array() && !list->empty();
+}
+
+// Entries are pores, or in an ensemble lists of pores.
+void collect_radii(const Json& list, std::vector<double>& radii) {
+  for (const Json& entry : list) {
+    if (entry.is_array())
+      collect_radii(entry, radii);
+    else if (const double radius = value_of(find(entry, {"R"})).mean; radius > 0)
+      radii.push_back(radius);
+  }
+}
+
+Plot pores_plot(const Json& r, const std::string& path) {
+  std::vector<double> radii;
+  if (pores_applies(r)) collect_radii(r["pores"]["list"], radii);
+  if (radii.empty()) refuse(path, "pores.list", "has no finite pore with a radius; run analyze --only pores");
+  std::sort(radii.begin(), radii.end());
+  Curve curve;
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    const double before = static_cast<double>(radii.size() - i), after = before - 1;
+    curve.x.insert(curve.x.end(), {radii[i], radii[i]});
+    curve.y.insert(curve.y.end(), {before, after});
+  }
+  const bool reduced = find(r, {"units", "length"}) != nullptr;
+  Chart chart;
+  chart.x = {reduced ? rich("equivalent radius `R` / `a`") : rich("equivalent radius `R`"), true, {}, {}};
+  chart.y = {rich("number of pores larger than `R`"), true, {}, {}};
+  chart.curves.push_back(std::move(curve));
+  const Value mean = value_of(find(r, {"pores", "mean_radius_weighted"}));
+  if (std::isfinite(mean.mean))
+    chart.notes.push_back(rich(reduced ? "⟨`R`⟩_{w} / `a` = " : "⟨`R`⟩_{w} = ") +
+                          number_text_with_error(mean.mean, mean.error));
+  return {{chart}, false};
+}
+
+// --- law-fit: the measured laws of a soft-particle and Eq. 7 of its paper ---
+
+bool law_fit_applies(const Json& r) {
+  const Json* normal = find(r, {"normal"});
+  return normal && normal->is_array() && !normal->empty() && find(normal->front(), {"delta"}) &&
+         find(normal->front(), {"F"});
+}
+
+Curve measured(const Json& list, const char* value, const char* error) {
+  Curve curve;
+  curve.style = CurveStyle::points;
+  for (const Json& entry : list) {
+    const Value v = value_of(find(entry, {value}));
+    curve.x.push_back(value_of(find(entry, {"delta"})).mean);
+    curve.y.push_back(v.mean);
+    curve.error.push_back(std::isfinite(v.error) ? v.error : value_of(find(entry, {error})).mean);
+  }
+  return curve;
+}
+
+Plot law_fit_plot(const Json& r, const std::string& path) {
+  if (!law_fit_applies(r)) refuse(path, "normal", "no measured law; run lab soft-particle --json");
+  Plot plot{{}, true};
+  Chart chart;
+  chart.x.title = rich("normal deformation `Δ`_{n} = `h`_{n} / `R`_{s}");
+  chart.y.title = rich("`F` (N)");
+  chart.curves.push_back(measured(r["normal"], "F", "F_error"));
+  chart.curves[0].label = rich("measured");
+  const auto parameter = [&](const char* key) { return value_of(find(r, {"fit", key})).mean; };
+  const double a = parameter("a"), b = parameter("b"), c = parameter("c"), delta = parameter("delta");
+  if (std::isfinite(a) && std::isfinite(b) && std::isfinite(c)) {
+    Curve fit;  // Eq. 7: zero below delta
+    fit.color = curve_color(1);
+    fit.label = rich("`F` = `a` `Δ`^{b} + `c`");
+    const auto& x = chart.curves[0].x;
+    const double high = *std::max_element(x.begin(), x.end());
+    constexpr int kPoints = 240;
+    for (int p = 0; p <= kPoints; ++p) {
+      const double d = high * p / kPoints;
+      fit.x.push_back(d);
+      fit.y.push_back(std::isfinite(delta) && d < delta ? 0 : a * std::pow(d, b) + c);
+    }
+    chart.curves.push_back(std::move(fit));
+    chart.notes.push_back(rich("`a` = ") + number_text(a) + rich(" N,  `b` = ") + number_text(b));
+    if (std::isfinite(delta)) chart.notes.push_back(rich("`δ` = ") + number_text(delta, 3));
+  }
+  const Json* tangential = find(r, {"tangential"});
+  const bool both = tangential && tangential->is_array() && !tangential->empty();
+  chart.height = both ? 210 : 270;
+  plot.charts.push_back(std::move(chart));
+  if (both) {
+    Chart slope;
+    slope.x.title = plot.charts[0].x.title;
+    slope.y.title = rich("`k`_{t} (N / degree)");
+    slope.height = 170;
+    slope.curves.push_back(measured(*tangential, "k_t", "k_t_error"));
+    slope.curves[0].color = curve_color(2);
+    const auto& y = slope.curves[0].y;
+    if (std::any_of(y.begin(), y.end(), [](double v) { return std::isfinite(v); }))
+      plot.charts.push_back(std::move(slope));
+  }
+  return plot;
+}
+
+}  // namespace
+
+const std::vector<JsonPlot>& json_plots() {
+  static const std::vector<JsonPlot> plots = {
+      {"force-histogram", force_histogram_applies, force_histogram_plot},
+      {"angle", angle_applies, angle_plot},
+      {"NT", nt_applies, nt_plot},
+      {"coordination", coordination_applies, coordination_plot},
+      {"scattering", scattering_applies, scattering_plot},
+      {"pores", pores_applies, pores_plot},
+      {"law-fit", law_fit_applies, law_fit_plot},
+  };
+  return plots;
+}
+
+}  // namespace isostat
