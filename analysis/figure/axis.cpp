@@ -29,7 +29,7 @@ RichText decimal(double x, int decimals) {
 Ticks linear_ticks(const Axis& axis, double length, double spacing) {
   Ticks result;
   const double range = axis.high - axis.low, wanted = range / std::max(2.0, length / spacing);
-  const double step = nice_above(wanted);
+  const double step = axis.whole ? std::max(1.0, nice_above(0.5 * wanted)) : nice_above(wanted);
   const double largest = std::max(std::abs(axis.low), std::abs(axis.high));
   int exponent = static_cast<int>(std::floor(std::log10(largest) + kRounding));
   if (exponent >= -2 && exponent < 5) exponent = 0;
@@ -37,7 +37,9 @@ Ticks linear_ticks(const Axis& axis, double length, double spacing) {
   const double unit = std::pow(10, exponent);
   const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step / unit) + kRounding)));
   const double first_digit = step / std::pow(10, std::floor(std::log10(step) + kRounding));
-  const int parts = std::lround(first_digit) == 2 ? 4 : 5;  // minor steps of 0.5, 1 or 0.2 ... of the decade
+  const int parts = axis.whole                      ? 1
+                    : std::lround(first_digit) == 2 ? 4
+                                                    : 5;  // minor steps of 0.5, 1 or 0.2 ... of the decade
   const double minor = step / parts;
   const auto first = static_cast<long>(std::ceil(axis.low / minor - kRounding * range / minor));
   const auto last = static_cast<long>(std::floor(axis.high / minor + kRounding * range / minor));
@@ -86,7 +88,9 @@ double Axis::fraction(double value) const {
 }
 
 Ticks ticks(const Axis& axis, double length, double spacing) {
-  return axis.log ? log_ticks(axis, length, spacing) : linear_ticks(axis, length, spacing);
+  // less than a factor of six: multiples of powers of ten are too few, steps of one size serve a log axis as well
+  const bool decades = axis.log && axis.high / axis.low >= 6;
+  return decades ? log_ticks(axis, length, spacing) : linear_ticks(axis, length, spacing);
 }
 
 }  // namespace isostat

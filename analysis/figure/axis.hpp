@@ -15,6 +15,7 @@ struct Axis {
   RichText title;
   bool log = false;
   double low = 0, high = 1;  // log: both positive
+  bool whole = false;        // counts: ticks at integers only
 
   bool shows(double value) const;       // can be drawn: finite, and positive on a log axis
   double fraction(double value) const;  // 0 at low, 1 at high; log: by the logarithm

@@ -12,9 +12,12 @@ namespace {
 
 constexpr double kFrameWidth = 380, kEdge = 12, kText = 9.5, kTitle = 10.5;       // [pt]
 constexpr double kTick = 4.5, kMinorTick = 2.5, kTickGap = 4, kTitleGap = 7;      // [pt]
-constexpr double kPanelGap = 8, kLabelSpacingX = 62, kLabelSpacingY = 38;         // [pt]
+constexpr double kPanelGap = 8, kLabelSpacingX = 62, kLabelSpacingY = 34;         // [pt]
 constexpr double kBaseline = 0.36;                                                // [em]
 constexpr double kSample = 20, kSampleGap = 6, kLegendPad = 6, kLegendRow = 1.5;  // [pt], row in em
+
+// Low frames have their labels closer together.
+double label_spacing_y(double height) { return height < 120 ? 24 : kLabelSpacingY; }
 
 double widest_label(const Ticks& ticks) {
   double width = 0;
@@ -38,8 +41,8 @@ bool contains(const Rect& r, const Vec2& p) {
   return p[0] >= r.x && p[0] <= r.right() && p[1] >= r.y && p[1] <= r.bottom();
 }
 
-// The first corner that covers no data; none: it goes beside the frame.
-std::optional<Vec2> free_corner(const ChartFrame& frame, const Chart& chart, const LegendBox& legend) {
+// The first corner or side of the frame where it covers no data; none: it goes beside the frame.
+std::optional<Vec2> free_place(const ChartFrame& frame, const Chart& chart, const LegendBox& legend) {
   constexpr double kInset = 6;
   const Rect& box = frame.box;
   if (legend.width + 2 * kInset > box.width || legend.height + 2 * kInset > box.height) return std::nullopt;
@@ -48,7 +51,10 @@ std::optional<Vec2> free_corner(const ChartFrame& frame, const Chart& chart, con
     for (const Vec2& p : covered_points(frame, chart, c)) points.push_back(p);
   const double left = box.x + kInset, right = box.right() - kInset - legend.width, top = box.y + kInset,
                bottom = box.bottom() - kInset - legend.height;
-  for (const Vec2& corner : {Vec2{{right, top}}, Vec2{{left, top}}, Vec2{{right, bottom}}, Vec2{{left, bottom}}}) {
+  const double center = (left + right) / 2, middle = (top + bottom) / 2;
+  for (const Vec2& corner :
+       {Vec2{{right, top}}, Vec2{{left, top}}, Vec2{{right, bottom}}, Vec2{{left, bottom}}, Vec2{{right, middle}},
+        Vec2{{left, middle}}, Vec2{{center, top}}, Vec2{{center, bottom}}}) {
     const Rect place{corner[0] - 2, corner[1] - 2, legend.width + 4, legend.height + 4};
     if (std::none_of(points.begin(), points.end(), [&](const Vec2& p) { return contains(place, p); })) return corner;
   }
@@ -77,7 +83,8 @@ void tick_line(Canvas& canvas, const Vec2& from, const Vec2& inwards) {
 
 void draw_axes(Canvas& canvas, const ChartFrame& frame, bool labels_x, double title_x) {
   const Rect& box = frame.box;
-  const Ticks along = ticks(frame.x, box.width, kLabelSpacingX), up = ticks(frame.y, box.height, kLabelSpacingY);
+  const Ticks along = ticks(frame.x, box.width, kLabelSpacingX),
+              up = ticks(frame.y, box.height, label_spacing_y(box.height));
   for (const Tick& t : along.ticks) {
     const double x = box.x + box.width * frame.x.fraction(t.value), size = t.label.empty() ? kMinorTick : kTick;
     tick_line(canvas, {{x, box.bottom()}}, {{0, -size}});
@@ -123,7 +130,8 @@ ChartFigure::ChartFigure(std::vector<Chart> charts, bool share_x) {
     }
   }
   double left = 0, beside = 0, y = kEdge;
-  for (const Panel& p : panels_) left = std::max(left, widest_label(ticks(p.y, p.chart.height, kLabelSpacingY)));
+  for (const Panel& p : panels_)
+    left = std::max(left, widest_label(ticks(p.y, p.chart.height, label_spacing_y(p.chart.height))));
   left += kEdge + kTitle + kTitleGap + kTickGap;
   for (Panel& p : panels_) {
     double height = p.chart.height;
@@ -132,7 +140,7 @@ ChartFigure::ChartFigure(std::vector<Chart> charts, bool share_x) {
     p.frame = {left, y, kFrameWidth, height};
     y += height + (p.labels_x ? kTickGap + kText + kTitleGap + kTitle + kEdge : kPanelGap);
     const LegendBox legend = legend_box(p.chart);
-    if (!free_corner({p.frame, p.x, p.y}, p.chart, legend)) {
+    if (!free_place({p.frame, p.x, p.y}, p.chart, legend)) {
       beside = std::max(beside, legend.width);
       y = std::max(y, p.frame.y + legend.height + kEdge);
     }
@@ -156,7 +164,7 @@ void ChartFigure::draw(Canvas& canvas) const {
     draw_axes(canvas, frame, p.labels_x, kEdge + 0.8 * kTitle);
     const LegendBox legend = legend_box(p.chart);
     if (legend.width > 0) {
-      const auto corner = free_corner(frame, p.chart, legend);
+      const auto corner = free_place(frame, p.chart, legend);
       draw_legend(canvas, p.chart, corner.value_or(Vec2{{p.frame.right() + 4, p.frame.y - 4}}));
     }
     canvas.end_group();

@@ -32,6 +32,7 @@ struct ChartAxis {
   RichText title;
   bool log = false;
   std::optional<double> low, high;  // absent: from the data
+  bool whole = false;               // counts: ticks at integers only
 };
 
 struct Chart {

@@ -18,7 +18,7 @@ struct Range {
 
 Axis fitted(const ChartAxis& wish, Range range, bool from_zero) {
   if (range.empty()) throw std::invalid_argument("no value to show");
-  Axis axis{wish.title, wish.log, 0, 1};
+  Axis axis{wish.title, wish.log, 0, 1, wish.whole};
   if (wish.log) {
     if (range.low == range.high) range.low /= 2, range.high *= 2;
     const double stretch = std::pow(range.high / range.low, kLogMargin);
@@ -55,7 +55,7 @@ BarPlace bar_place(const Chart& chart, std::size_t curve, double x) {
 }
 
 Axis fitted_x_axis(const Chart& chart) {
-  const Axis any{{}, chart.x.log, 0, 1};
+  const Axis any{{}, chart.x.log};
   Range range;
   bool tight = true;
   for (std::size_t c = 0; c < chart.curves.size(); ++c) {
@@ -77,7 +77,7 @@ Axis fitted_x_axis(const Chart& chart) {
 }
 
 Axis fitted_y_axis(const Chart& chart, const Axis& x) {
-  const Axis any{{}, chart.y.log, 0, 1};
+  const Axis any{{}, chart.y.log};
   Range range;
   bool from_zero = false;
   for (const Curve& curve : chart.curves) {
@@ -95,7 +95,8 @@ Axis fitted_y_axis(const Chart& chart, const Axis& x) {
         range.add(curve.y[i] + curve.error[i]);
         // a log axis shows the lower end of a bar down to a quarter of its value, and clips the rest
         const double low = curve.y[i] - curve.error[i];
-        range.add(chart.y.log ? std::max(low, curve.y[i] / 4) : low);
+        const bool from_floor = curve.style == CurveStyle::steps || curve.style == CurveStyle::bars;
+        range.add(chart.y.log ? std::max(low, curve.y[i] / 4) : from_floor ? std::max(low, 0.0) : low);
       }
     }
   }

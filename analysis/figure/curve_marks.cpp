@@ -120,9 +120,10 @@ void draw_cells(Canvas& canvas, const ChartFrame& frame, const Curve& curve) {
     const Vec2 a = frame.page(curve.x[r], curve.x2[c]), b = frame.page(curve.x[r + 1], curve.x2[c + 1]);
     levels[static_cast<std::size_t>(std::lround(t * (kLevels - 1)))].push_back({a, {{b[0], a[1]}}, b, {{a[0], b[1]}}});
   }
-  for (int level = 0; level < kLevels; ++level)
-    canvas.polygons(levels[static_cast<std::size_t>(level)],
-                    {sequential(static_cast<double>(level) / (kLevels - 1)), std::nullopt});
+  for (int level = 0; level < kLevels; ++level) {  // the outline closes the seams of antialiasing
+    const Color color = sequential(static_cast<double>(level) / (kLevels - 1));
+    canvas.polygons(levels[static_cast<std::size_t>(level)], {color, Stroke{color, 0.4, {}}});
+  }
 }
 
 }  // namespace

@@ -79,6 +79,18 @@ Curve steps(const Json& histogram) {
   return curve;
 }
 
+// Without the empty bins at both ends.
+Curve trimmed(Curve curve) {
+  const auto filled = [](double d) { return d > 0; };
+  const auto first = std::find_if(curve.y.begin(), curve.y.end(), filled) - curve.y.begin();
+  const auto after = curve.y.rend() - std::find_if(curve.y.rbegin(), curve.y.rend(), filled);
+  if (first >= after) return curve;
+  curve.x = std::vector<double>(curve.x.begin() + first, curve.x.begin() + after + 1);
+  curve.y = std::vector<double>(curve.y.begin() + first, curve.y.begin() + after);
+  if (!curve.error.empty()) curve.error = std::vector<double>(curve.error.begin() + first, curve.error.begin() + after);
+  return curve;
+}
+
 bool force_histogram_applies(const Json& r) { return is_histogram(find(r, {"forces", "histograms", "N"})); }
 
 Plot force_histogram_plot(const Json& r, const std::string& path) {
@@ -88,14 +100,14 @@ Plot force_histogram_plot(const Json& r, const std::string& path) {
   Plot plot;
   Chart chart;
   chart.x.title = over(rich("`N`"), unit);
-  chart.y = {rich("probability density"), true, {}, {}};
-  chart.curves.push_back(steps(*n));
+  chart.y = {rich("probability density"), true, {}, {}, false};
+  chart.curves.push_back(trimmed(steps(*n)));
   plot.charts.push_back(std::move(chart));
   if (const Json* total = find(r, {"forces", "histograms", "F"}); is_histogram(total)) {
     Chart log;  // bins are decades: only they show the divergence at small forces
-    log.x = {over(rich("|`F`|"), unit), true, {}, {}};
-    log.y = {rich("probability density"), true, {}, {}};
-    log.curves.push_back(steps(*total));
+    log.x = {over(rich("|`F`|"), unit), true, {}, {}, false};
+    log.y = {rich("probability density"), true, {}, {}, false};
+    log.curves.push_back(trimmed(steps(*total)));
     log.curves[0].color = curve_color(2);
     if (std::any_of(log.curves[0].y.begin(), log.curves[0].y.end(), [](double d) { return d > 0; }))
       plot.charts.push_back(std::move(log));
@@ -161,7 +173,8 @@ Plot coordination_plot(const Json& r, const std::string& path) {
     refuse(path, "counts.x", "is undefined: every grain is a rattler");
   Chart chart;
   chart.x.title = rich("number of interacting neighbours `k`");
-  chart.y.title = rich("`x`_{k}  (% of the grains)");
+  chart.x.whole = true;
+  chart.y.title = rich("`x_{k}`  (% of the grains)");
   const Value z = value_of(find(r, {"counts", "z"}));
   if (std::isfinite(z.mean)) chart.notes.push_back(rich("`z` = ") + number_text_with_error(z.mean, z.error));
   chart.curves.push_back(std::move(bars));
@@ -192,8 +205,8 @@ Plot scattering_plot(const Json& r, const std::string& path) {
   if (!(high > 0)) refuse(path, "scattering.I", "has no positive value");
   const bool reduced = find(r, {"units", "length"}) != nullptr;
   Chart chart;
-  chart.x = {reduced ? rich("`ka`") : rich("`k`"), true, {}, {}};
-  chart.y = {reduced ? rich("`I`(`k`) / `a`^{2}") : rich("`I`(`k`)"), true, {}, {}};
+  chart.x = {reduced ? rich("`ka`") : rich("`k`"), true, {}, {}, false};
+  chart.y = {reduced ? rich("`I`(`k`) / `a`^{2}") : rich("`I`(`k`)"), true, {}, {}, false};
   chart.height = 280;
   points.label = rich("`I`(`k`)");
   chart.curves.push_back(std::move(points));
@@ -251,8 +264,8 @@ Plot pores_plot(const Json& r, const std::string& path) {
   }
   const bool reduced = find(r, {"units", "length"}) != nullptr;
   Chart chart;
-  chart.x = {reduced ? rich("equivalent radius `R` / `a`") : rich("equivalent radius `R`"), true, {}, {}};
-  chart.y = {rich("number of pores larger than `R`"), true, {}, {}};
+  chart.x = {reduced ? rich("equivalent radius `R` / `a`") : rich("equivalent radius `R`"), true, {}, {}, false};
+  chart.y = {rich("number of pores larger than `R`"), true, {}, {}, false};
   chart.curves.push_back(std::move(curve));
   const Value mean = value_of(find(r, {"pores", "mean_radius_weighted"}));
   if (std::isfinite(mean.mean))
@@ -285,7 +298,7 @@ Plot law_fit_plot(const Json& r, const std::string& path) {
   if (!law_fit_applies(r)) refuse(path, "normal", "no measured law; run lab soft-particle --json");
   Plot plot{{}, true};
   Chart chart;
-  chart.x.title = rich("normal deformation `Δ`_{n} = `h`_{n} / `R`_{s}");
+  chart.x.title = rich("normal deformation Δ_{n} = `h`_{n} / `R`_{s}");
   chart.y.title = rich("`F` (N)");
   chart.curves.push_back(measured(r["normal"], "F", "F_error"));
   chart.curves[0].label = rich("measured");
@@ -294,7 +307,7 @@ Plot law_fit_plot(const Json& r, const std::string& path) {
   if (std::isfinite(a) && std::isfinite(b) && std::isfinite(c)) {
     Curve fit;  // Eq. 7: zero below delta
     fit.color = curve_color(1);
-    fit.label = rich("`F` = `a` `Δ`^{b} + `c`");
+    fit.label = rich("`F` = `a` Δ^{`b`} + `c`");
     const auto& x = chart.curves[0].x;
     const double high = *std::max_element(x.begin(), x.end());
     constexpr int kPoints = 240;

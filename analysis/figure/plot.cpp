@@ -1,24 +1,13 @@
 #include "analysis/figure/plot.hpp"
 
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
+#include "dem/atomic_file.hpp"
 #include "dem/input_error.hpp"
 
 namespace isostat {
 namespace {
-
-std::string read_text(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) throw InputError(path, 0, "", "", "is a directory; name a file");
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) throw InputError(path, 0, "", "", "cannot be read");
-  return text.str();
-}
 
 // The plot of that name if the file has its data, or the only one that applies.
 template <class Plots, class Data>
@@ -45,13 +34,13 @@ const auto& chosen(const Plots& plots, const Data& data, const std::string& path
 Plot read_plot(const std::string& path, const std::string& what) {
   const std::string extension = std::filesystem::path(path).extension().string();
   if (extension == ".csv") {
-    const DataTable table = parse_table(read_text(path), path);
+    const DataTable table = parse_table(read_whole_file(path), path);
     return chosen(table_plots(), table, path, what).make(table);
   }
   if (extension != ".json") throw InputError(path, 0, "", "", "plot reads .json results and .csv tables");
   nlohmann::json result;
   try {
-    result = nlohmann::json::parse(read_text(path));
+    result = nlohmann::json::parse(read_whole_file(path));
   } catch (const nlohmann::json::exception& error) {
     throw InputError(path, 0, "", "", std::string("is no JSON: ") + error.what());
   }

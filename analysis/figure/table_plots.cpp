@@ -34,7 +34,7 @@ struct SeriesPanel {
 
 const std::vector<SeriesPanel>& series_panels() {
   static const std::vector<SeriesPanel> panels = {
-      {"`Φ`", false, {{"Phi", ""}}},
+      {"Φ", false, {{"Phi", ""}}},
       {"`L` / `a`", false, {{"L1", "`L`_{1}"}, {"L2", "`L`_{2}"}, {"L3", "`L`_{3}"}}},
       {"stress", false, {{"sigma11", "`σ`_{11}"}, {"sigma22", "`σ`_{22}"}, {"sigma33", "`σ`_{33}"}}},
       {"strain rate",
@@ -48,7 +48,7 @@ const std::vector<SeriesPanel>& series_panels() {
        {{"max_force", "net force"},
         {"max_moment", "net moment"},
         {"pressure_error", "pressure error"},
-        {"kinetic_energy_per_grain", "kinetic energy per grain"}}},
+        {"kinetic_energy_per_grain", "kinetic energy"}}},
       {"energy",
        false,
        {{"E_kinetic", "kinetic"},
@@ -85,7 +85,7 @@ Plot series_plot(const DataTable& table) {
   };
   for (const SeriesPanel& panel : series_panels()) {
     Chart chart;
-    chart.y = {rich(panel.title), panel.log, {}, {}};
+    chart.y = {rich(panel.title), panel.log, {}, {}, false};
     for (const auto& [name, label] : panel.columns)
       if (const DataColumn* column = table.find(name)) {
         used.emplace_back(name);
@@ -177,8 +177,8 @@ Plot bench_plot(const DataTable& table) {
   for (const DataColumn* y : ys)
     for (const DataColumn* x : xs) {
       Chart chart;
-      chart.x = {plain(x->name), true, {}, {}};
-      chart.y = {plain(y->name), true, {}, {}};
+      chart.x = {plain(x->name), true, {}, {}, false};
+      chart.y = {plain(y->name), true, {}, {}, false};
       chart.height = ys.size() * xs.size() > 2 ? 150 : 230;
       chart.curves = labelled_curves(table, *x, *y);
       if (!chart.curves.empty()) plot.charts.push_back(std::move(chart));
