@@ -32,7 +32,7 @@ Ticks linear_ticks(const Axis& axis, double length, double spacing) {
   const double step = axis.whole ? std::max(1.0, nice_above(0.5 * wanted)) : nice_above(wanted);
   const double largest = std::max(std::abs(axis.low), std::abs(axis.high));
   int exponent = static_cast<int>(std::floor(std::log10(largest) + kRounding));
-  if (exponent >= -2 && exponent < 5) exponent = 0;
+  if (exponent >= -3 && exponent < 5) exponent = 0;
   if (exponent != 0) result.factor = plain("\u00d7\u200910") + RichText{power_of_ten(exponent).back()};
   const double unit = std::pow(10, exponent);
   const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step / unit) + kRounding)));

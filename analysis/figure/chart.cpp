@@ -106,8 +106,9 @@ void draw_axes(Canvas& canvas, const ChartFrame& frame, bool labels_x, double ti
   if (labels_x)
     canvas.text({{box.x + box.width / 2, box.bottom() + kTickGap + kText + kTitleGap + kTitle}},
                 with_factor(frame.x.title, along), {kTitle, Anchor::middle, kInk, false});
-  canvas.text({{title_x, box.y + box.height / 2}}, with_factor(frame.y.title, up),
-              {kTitle, Anchor::middle, kInk, true});
+  const RichText title_y = with_factor(frame.y.title, up);
+  const double fits = std::min(1.0, box.height / std::max(1.0, text_width(title_y, kTitle)));
+  canvas.text({{title_x, box.y + box.height / 2}}, title_y, {kTitle * fits, Anchor::middle, kInk, true});
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace isostat {
 namespace {
 
 constexpr double kMargin = 12;         // [pt] around the page
-constexpr double kHairline = 0.45;     // [pt] least width of blue lines, which tell a kind and not a force
+constexpr double kHairline = 0.05;     // [mean diameter] least width of blue lines, which tell a kind and not a force
 constexpr double kSmallestPage = 360;  // [pt] room for the legend
 
 // Largest reach of the arrows beyond the disks, if the rms speed is drawn as one mean diameter.
@@ -57,7 +57,7 @@ double PackingPicture::force_width(double force) const {
 }
 
 double PackingPicture::outline_width() const {
-  return std::clamp(0.035 * frame_.mean_diameter() * frame_.scale(), 0.15, 0.8);
+  return std::clamp(0.04 * frame_.mean_diameter() * frame_.scale(), 0.15, 0.8);
 }
 
 void PackingPicture::draw(Canvas& canvas) const {
@@ -140,11 +140,12 @@ void PackingPicture::draw_links(Canvas& canvas) const {
 
 // Blue below, then thin before thick, so that the strong chains are on top.
 void PackingPicture::draw_forces(Canvas& canvas) const {
+  const double hairline = std::min(kHairline * frame_.mean_diameter() * frame_.scale(), 0.6);  // [pt]
   std::array<std::vector<std::pair<const Link<2>*, double>>, 3> by_color;
   for (const Link<2>& link : packing_.links) {
     const LinkColor color = link_color(link, options_.convention);
     double width = force_width(drawn_force(link, options_.convention));
-    if (color == LinkColor::distant) width = std::max(width, kHairline);
+    if (color == LinkColor::distant) width = std::max(width, hairline);
     by_color[static_cast<std::size_t>(color)].emplace_back(&link, width);
   }
   for (auto& links : by_color)

@@ -16,9 +16,9 @@ enum class PictureKind {
   velocity  // arrows, and disks coloured by spin
 };
 
-// Line widths in units of a, the largest diameter. Forces of order F0 are about as wide as a radius (Sec. IV.B.1); the
+// Line widths in units of a, the largest diameter. Forces of order F0 are as wide as radii are (Sec. IV.B.1); the
 // mean force without cohesion is slightly above a P, and the strong chains a few times it.
-inline constexpr double kWidthAtF0 = 0.3, kWidthAtAP = 0.11;
+inline constexpr double kWidthAtF0 = 0.5, kWidthAtAP = 0.11;
 
 struct PictureOptions {
   PictureKind kind = PictureKind::grains;
