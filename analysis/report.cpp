@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "analysis/network/sections.hpp"
+#include "analysis/rigidity/sections.hpp"
 #include "analysis/structure/sections.hpp"
 #include "analysis/version.hpp"
 #include "dem/input_error.hpp"
@@ -15,7 +16,10 @@ namespace isostat {
 const std::vector<Section>& sections() {
   static const std::vector<Section> table{
       {"counts", counts_section, counts_tables}, {"equilibrium", equilibrium_section}, {"stress", stress_section},
-      {"forces", forces_section, forces_tables}, {"percolation", percolation_section}, {"pores", pores_section},
+      {"forces", forces_section, forces_tables}, {"percolation", percolation_section},
+      {"rigidity", rigidity_section}, {"clusters", clusters_section, clusters_tables},
+      {"stiffness", stiffness_section}, {"moduli", moduli_section}, {"modes", modes_section, modes_tables},
+      {"pores", pores_section},
   };
   return table;
 }

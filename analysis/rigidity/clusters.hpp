@@ -1,0 +1,33 @@
+// Decomposition of a packing into maximal rigid clusters, exact: two neighbours belong together when they move as one
+// rigid body in a random vector of null G over a prime field, which (up to a chance of 1e-12) means in all of them.
+//
+// With friction a cluster is a set of grains, and pins between clusters are hinges. Frictionless grains are points: a
+// cluster is a set of links, and a grain may be the hinge of several.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "analysis/report.hpp"
+#include "dem/packing.hpp"
+
+namespace isostat {
+
+struct RigidCluster {
+  std::int64_t grains = 0;       // at least 2
+  std::int64_t links = 0;        // inside the cluster
+  std::int64_t rows = 0;         // of G, of those links
+  std::int64_t hyperstatic = 0;  // H of the cluster by itself
+  std::array<bool, 2> spans{};   // connected to its own image along axis 1, 2
+};
+
+struct RigidClusters {
+  std::vector<RigidCluster> clusters;          // by decreasing number of grains
+  std::vector<std::int32_t> cluster_of_link;   // -1: the link joins different clusters
+  std::vector<std::int32_t> cluster_of_grain;  // the largest cluster that holds it; -1: in none
+};
+
+// Throws InputError if cell_free is asked for without a cell.
+RigidClusters rigid_clusters(const Packing<2>& packing, NetworkLaw law, bool cell_free);
+
+}  // namespace isostat

@@ -1,0 +1,133 @@
+#include "analysis/rigidity/exact_rank.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+
+#include "analysis/rigidity/reduced_problem.hpp"
+#include "dem/input_error.hpp"
+
+namespace isostat {
+namespace {
+
+constexpr std::uint64_t kWeightSeed = 0x150574A7;
+
+// Dimension of the null space of the reduced rows, with pruned and free bodies counted back in.
+template <class G>
+std::int64_t null_dimension(const ReducedProblem<FirstField>& problem, const std::vector<BodyRow<G>>& rows) {
+  const std::vector<FieldRow<G>> reduced = field_rows(problem, rows);
+  const std::int64_t unknowns =
+      static_cast<std::int64_t>(problem.bodies.count) * problem.per_body + (problem.strain_node >= 0 ? 2 : 0);
+  for (std::uint64_t attempt = 0;; ++attempt) {
+    try {
+      const ModularLdlt<G> ldlt(problem.tree, problem.dofs, reduced, kWeightSeed + attempt, false);
+      return unknowns - problem.network.pruned_rank - ldlt.rank();
+    } catch (const RandomizationFailed&) {
+      if (attempt == 3) throw;  // chance below 1e-40
+    }
+  }
+}
+
+void count_null_spaces(const Packing<2>& packing, NetworkLaw law, ExactRank& r) {
+  std::vector<char> linked(packing.bodies.size(), 0);
+  for (const Link<2>& link : packing.links)
+    linked[static_cast<std::size_t>(link.i)] = linked[static_cast<std::size_t>(link.j)] = 1;
+  const auto n = static_cast<std::int64_t>(packing.bodies.size());
+  const std::int64_t rattlers = n - std::count(linked.begin(), linked.end(), 1);
+  const std::int64_t per_body = law == NetworkLaw::frictionless ? 2 : 3;
+  // Isolated: two translations and a rotation; of one point: the translations.
+  r.trivial = packing.cell ? 2 : std::min<std::int64_t>(3, n * per_body);
+  r.rattler_modes = rattlers == n ? n * per_body - r.trivial : rattlers * per_body;
+  r.mechanisms = r.floppy - r.trivial - r.rattler_modes;
+}
+
+}  // namespace
+
+ExactRank exact_rank(const Packing<2>& packing, NetworkLaw law, bool cell_free) {
+  using Clock = std::chrono::steady_clock;
+  if (cell_free && !packing.cell) throw InputError("command line", 0, "--cell", "free", "the input has no cell");
+  ExactRank r;
+  r.dofs = dof_layout(packing.bodies.size(), law, cell_free).size();
+  r.rows = row_count(packing, law);
+
+  const ReducedProblem<FirstField> problem = reduce_problem<FirstField>(packing, law, cell_free);
+  r.bodies = problem.bodies.count;
+  for (std::int8_t d : problem.dofs) r.eliminated_columns += d;
+  r.timings.contraction = problem.contraction_seconds;
+  r.timings.assembly = problem.assembly_seconds;
+  r.timings.ordering = problem.ordering_seconds;
+
+  const auto start = Clock::now();
+  r.floppy = null_dimension(problem, problem.rows);
+  r.primes = {FirstField::kPrime};
+  r.floppy_generic = null_dimension(
+      problem, body_rows(packing, law, cell_free, problem.bodies, random_geometry<SecondField>(packing, kWeightSeed)));
+  r.bounds_meet = r.floppy_generic == r.floppy;
+  r.certified = r.bounds_meet;
+  if (!r.bounds_meet) {
+    const std::int64_t second = null_dimension(
+        problem, body_rows(packing, law, cell_free, problem.bodies, exact_geometry<SecondField>(packing)));
+    r.certified = second == r.floppy && r.floppy_generic <= r.floppy;
+    if (second == r.floppy)
+      r.primes.push_back(SecondField::kPrime);
+    else if (second < r.floppy)
+      r.floppy = second, r.primes = {SecondField::kPrime};  // the smaller K is nearer
+  }
+  r.timings.elimination = std::chrono::duration<double>(Clock::now() - start).count();
+
+  r.rank = r.dofs - r.floppy;
+  r.hyperstatic = r.rows - r.rank;
+  count_null_spaces(packing, law, r);
+  r.gear_modes = static_cast<std::int64_t>(gear_components(packing, law).size());
+  return r;
+}
+
+std::vector<std::vector<std::int32_t>> gear_components(const Packing<2>& packing, NetworkLaw law) {
+  // Union-find with parity: side[i] is the colour of i relative to its root.
+  const std::size_t n = packing.bodies.size();
+  std::vector<std::int32_t> parent(n);
+  std::iota(parent.begin(), parent.end(), 0);
+  std::vector<char> side(n, 0), spoiled(n, 0), loop(n, 0);
+  const auto find = [&](std::int32_t i) {
+    std::int32_t root = i;
+    char parity = 0;
+    while (parent[static_cast<std::size_t>(root)] != root)
+      parity ^= side[static_cast<std::size_t>(root)], root = parent[static_cast<std::size_t>(root)];
+    char rest = parity;
+    while (parent[static_cast<std::size_t>(i)] != root && i != root) {
+      const std::int32_t next = parent[static_cast<std::size_t>(i)];
+      const char step = side[static_cast<std::size_t>(i)];
+      parent[static_cast<std::size_t>(i)] = root, side[static_cast<std::size_t>(i)] = rest;
+      rest ^= step;
+      i = next;
+    }
+    return std::pair{static_cast<std::size_t>(root), parity};
+  };
+  for (const Link<2>& link : packing.links) {
+    const LinkRows rows = rows_of(link.kind, law);
+    if (!rows.tangential && !rows.moment) continue;
+    const auto [a, side_a] = find(link.i);
+    const auto [b, side_b] = find(link.j);
+    if (a == b) {
+      loop[a] = 1;
+      if (side_a == side_b) spoiled[a] = 1;
+    } else {
+      parent[b] = static_cast<std::int32_t>(a);
+      side[b] = static_cast<char>(side_a ^ side_b ^ 1);
+      spoiled[a] = spoiled[a] | spoiled[b];
+      loop[a] = loop[a] | loop[b];
+    }
+    if (rows.moment) spoiled[find(link.i).first] = 1;
+  }
+  std::vector<std::vector<std::int32_t>> components;
+  std::vector<std::int32_t> index(n, -1);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t root = find(static_cast<std::int32_t>(i)).first;
+    if (spoiled[root] || !loop[root]) continue;
+    if (index[root] < 0) index[root] = static_cast<std::int32_t>(components.size()), components.emplace_back();
+    components[static_cast<std::size_t>(index[root])].push_back(static_cast<std::int32_t>(i));
+  }
+  return components;
+}
+
+}  // namespace isostat

@@ -1,0 +1,60 @@
+// Geometry of a packing as elements of a prime field: the exact image of the doubles, or random values that keep the
+// topology (which link joins which bodies through which image) and forget the positions.
+#pragma once
+#include <array>
+#include <vector>
+
+#include "analysis/rigidity/prime_field.hpp"
+#include "dem/packing.hpp"
+
+namespace isostat {
+
+template <class F>
+using FieldVec = std::array<F, 2>;
+
+template <class F>
+struct FieldGeometry {
+  std::vector<FieldVec<F>> position;
+  std::vector<F> radius;
+  FieldVec<F> cell{};  // zero when isolated
+
+  FieldVec<F> offset(const ImageShift<2>& s) const {
+    return {F::from_integer(s[0]) * cell[0], F::from_integer(s[1]) * cell[1]};
+  }
+  FieldVec<F> placed(std::size_t grain, const ImageShift<2>& s) const {
+    if (s[0] == 0 && s[1] == 0) return position[grain];
+    const auto o = offset(s);
+    return {position[grain][0] + o[0], position[grain][1] + o[1]};
+  }
+  FieldVec<F> branch(const Link<2>& link) const {
+    const auto a = position[static_cast<std::size_t>(link.i)], b = placed(static_cast<std::size_t>(link.j), link.shift);
+    return {b[0] - a[0], b[1] - a[1]};
+  }
+};
+
+template <class F>
+FieldGeometry<F> exact_geometry(const Packing<2>& packing) {
+  FieldGeometry<F> g;
+  g.position.reserve(packing.bodies.size());
+  g.radius.reserve(packing.bodies.size());
+  for (const Vec2& r : packing.bodies.position) g.position.push_back({F::from_double(r[0]), F::from_double(r[1])});
+  for (double r : packing.bodies.radius) g.radius.push_back(F::from_double(r));
+  if (packing.cell) g.cell = {F::from_double(packing.cell->length[0]), F::from_double(packing.cell->length[1])};
+  return g;
+}
+
+// A generic packing of the same topology: its rank is at least that of any special geometry, the actual one included.
+template <class F>
+FieldGeometry<F> random_geometry(const Packing<2>& packing, std::uint64_t seed) {
+  FieldGeometry<F> g;
+  std::uint64_t draw = 0;
+  for (std::size_t i = 0; i < packing.bodies.size(); ++i) {
+    g.position.push_back({F::random(seed, draw), F::random(seed, draw + 1)});
+    g.radius.push_back(F::random(seed, draw + 2));
+    draw += 3;
+  }
+  if (packing.cell) g.cell = {F::random(seed, draw), F::random(seed, draw + 1)};
+  return g;
+}
+
+}  // namespace isostat

@@ -1,0 +1,14 @@
+// A maximal set of independent columns of G, chosen exactly: what makes singular stiffness matrices solvable without a
+// threshold. The columns left out number K; with them fixed at zero, Gt W G of the rest is nonsingular.
+#pragma once
+#include <vector>
+
+#include "analysis/report.hpp"
+#include "dem/packing.hpp"
+
+namespace isostat {
+
+// By column of G (analysis/rigidity/link_rows.hpp): 1 where it depends on the columns eliminated before it.
+std::vector<char> dependent_columns(const Packing<2>& packing, NetworkLaw law, bool cell_free);
+
+}  // namespace isostat

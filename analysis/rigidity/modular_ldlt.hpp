@@ -1,0 +1,68 @@
+// L D L^T of A = G^T W G modulo a prime, with random weights W, by a multifrontal method without pivoting.
+//
+// For random W the Schur complement of A at any step is again of the form G'^T W' G', so a zero pivot means (up to a
+// chance of about columns / p) that its column depends on those before it: the number of nonzero pivots is the rank
+// of G over the field. The whole column must then vanish, which is checked; a failed check throws RandomizationFailed
+// and the caller draws other weights.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+#include "analysis/rigidity/elimination_tree.hpp"
+#include "analysis/rigidity/prime_field.hpp"
+
+namespace isostat {
+
+class RandomizationFailed : public std::runtime_error {
+ public:
+  RandomizationFailed() : std::runtime_error("a zero pivot with a nonzero column: draw other weights") {}
+};
+
+// One row of G: up to three blocks, each on the dofs of one node.
+template <class F>
+struct FieldRow {
+  std::array<std::int32_t, 3> node = {-1, -1, -1};  // -1: no block
+  std::array<std::array<F, 3>, 3> value{};          // by block and dof; beyond the node's dofs ignored
+};
+
+template <class F>
+class ModularLdlt {
+ public:
+  // dofs[node] in 1..3. keep: store L for solving (memory: the factor). Throws RandomizationFailed.
+  ModularLdlt(const EliminationTree& tree, const std::vector<std::int8_t>& dofs, const std::vector<FieldRow<F>>& rows,
+              std::uint64_t seed, bool keep);
+
+  std::int64_t rank() const { return rank_; }
+  std::int64_t columns() const { return columns_; }
+
+  // Offsets of the nodes' dofs in vectors: dof d of node n is entry offset(n) + d.
+  std::int64_t offset(std::int32_t node) const { return offset_[static_cast<std::size_t>(node)]; }
+  const std::vector<char>& dependent() const { return dependent_; }  // by entry: column depends on earlier ones
+
+  // A random vector of null A = null G; columns - rank free entries. Needs keep.
+  std::vector<F> random_null_vector(std::uint64_t seed) const;
+  // A solution of A x = b, b in the range of A, zero at the dependent columns. Needs keep.
+  std::vector<F> solve(std::vector<F> b) const;
+  static F weight(std::uint64_t seed, std::size_t row) { return F::random(seed, row); }
+
+ private:
+  struct Factor {
+    std::vector<std::int64_t> entry;  // entries of the front: pivots first
+    std::int32_t pivots = 0;
+    std::vector<F> lower;          // row-major, front x pivots: rows of L, unit diagonal not stored as such
+    std::vector<F> inverse_pivot;  // 0 for a dependent column
+  };
+  void back_substitute(std::vector<F>& x) const;
+
+  std::int64_t rank_ = 0, columns_ = 0;
+  std::vector<std::int64_t> offset_;
+  std::vector<char> dependent_;
+  std::vector<Factor> factors_;
+};
+
+extern template class ModularLdlt<FirstField>;
+extern template class ModularLdlt<SecondField>;
+
+}  // namespace isostat

@@ -1,0 +1,34 @@
+// Exact contraction of grains into rigid bodies, before any linear algebra:
+//
+//   a contact with N, T and M rows glues its two grains;
+//   a contact with N and T rows pins them at the contact point (no relative velocity there). Two bodies that share two
+//   distinct pins are one rigid body, and so are three bodies pinned pairwise at points that are not on a line.
+//
+// Each rule is a theorem about null G, with or without strain dofs, as long as the pins concern the same images; image
+// shifts are carried along. Distinct and non-collinear are decided in a prime field: residues that differ prove it.
+// (Residues that agree by bad luck only leave work to the elimination that follows.)
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "analysis/report.hpp"
+#include "dem/packing.hpp"
+
+namespace isostat {
+
+struct RigidBodies {
+  std::vector<std::int32_t> body_of;     // grain -> body, bodies numbered 0.. by their first grain
+  std::vector<ImageShift<2>> placement;  // grain -> image a_i: x_i = r_i + a_i L lies in the frame of its body
+  std::int32_t count = 0;
+
+  // Image of the body of j that a link i -> j (shift s) is about, seen from the body of i.
+  ImageShift<2> image(const Link<2>& link) const {
+    const auto &a = placement[static_cast<std::size_t>(link.i)], &b = placement[static_cast<std::size_t>(link.j)];
+    return {link.shift[0] + a[0] - b[0], link.shift[1] + a[1] - b[1]};
+  }
+};
+
+// Frictionless networks have no pins: every grain stays its own body.
+RigidBodies contract_rigid_bodies(const Packing<2>& packing, NetworkLaw law);
+
+}  // namespace isostat

@@ -1,0 +1,38 @@
+// The rigidity matrix G of a packing (Gilabert 2007, Eqs. A1-A3): body velocities to link velocities, with the sign
+// convention of dem/link.hpp; its transpose takes link forces to body forces (Eq. A5).
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "analysis/rigidity/link_rows.hpp"
+
+namespace isostat {
+
+// Compressed rows. Row order: links in storage order, and within a link N, T, M as far as kept.
+struct RigidityMatrix {
+  DofLayout layout;
+  std::vector<std::int64_t> row_start;    // size rows() + 1
+  std::vector<std::int64_t> column;       // ascending within a row; equal columns are already summed
+  std::vector<double> value;              // [-] normal, tangential in velocities; [a] at spins; strains [a]
+  std::vector<std::int32_t> link_of_row;  // index into Packing::links
+  std::vector<std::int8_t> component;     // 0 normal, 1 tangential, 2 moment
+
+  std::int64_t rows() const { return static_cast<std::int64_t>(row_start.size()) - 1; }
+  std::int64_t columns() const { return layout.size(); }
+
+  // Link velocities G U (size rows) and body forces G^T f (size columns; at a strain: the work-conjugate, area times
+  // stress).
+  std::vector<double> link_velocities(const std::vector<double>& body_velocities) const;
+  std::vector<double> body_forces(const std::vector<double>& link_forces) const;
+};
+
+// Throws InputError if cell_free is asked for without a cell.
+RigidityMatrix rigidity_matrix(const Packing<2>& packing, NetworkLaw law, bool cell_free);
+
+// Body velocities of a packing in the order of the columns, strain rates appended (a free cell only).
+std::vector<double> body_velocities(const Packing<2>& packing, const DofLayout& layout, const Vec2& strain_rate);
+
+// Forces of a packing's links (N, T, M as stored) in the order of the rows.
+std::vector<double> link_forces(const Packing<2>& packing, const RigidityMatrix& matrix);
+
+}  // namespace isostat

@@ -1,0 +1,147 @@
+#include "analysis/rigidity/sections.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "analysis/network/coordination.hpp"
+#include "analysis/rigidity/clusters.hpp"
+#include "analysis/rigidity/exact_rank.hpp"
+#include "analysis/stiffness/soft_modes.hpp"
+#include "analysis/stiffness/sparse_cholesky.hpp"
+
+namespace isostat {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Soft modes cost more than the integers; above this size they are left to `modes`.
+constexpr std::int64_t kNearNullDofs = 20000;
+constexpr int kNearNullValues = 6;
+
+const char* name_of(NetworkLaw law) {
+  return law == NetworkLaw::frictionless ? "frictionless" : law == NetworkLaw::friction ? "friction" : "rolling";
+}
+
+// Null modes that vanish when the rattlers and their links are taken away (rattlers of a cohesionless state may touch).
+std::int64_t rattler_modes(const AnalysisInput& input, NetworkLaw law, bool cell_free, const ExactRank& whole) {
+  const Coordination c = coordination(input.packing, read_forces(input));
+  bool linked = false;
+  for (const Link<2>& l : input.packing.links)
+    linked = linked || c.rattler[static_cast<std::size_t>(l.i)] || c.rattler[static_cast<std::size_t>(l.j)];
+  if (!linked) return whole.rattler_modes;
+  Packing<2> backbone;
+  backbone.cell = input.packing.cell;
+  std::vector<std::int32_t> number(input.packing.bodies.size(), -1);
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    if (c.rattler[i]) continue;
+    number[i] = static_cast<std::int32_t>(backbone.bodies.size());
+    backbone.bodies.id.push_back(input.packing.bodies.id[i]);
+    backbone.bodies.position.push_back(input.packing.bodies.position[i]);
+    backbone.bodies.radius.push_back(input.packing.bodies.radius[i]);
+  }
+  for (Link<2> link : input.packing.links) {
+    link.i = number[static_cast<std::size_t>(link.i)], link.j = number[static_cast<std::size_t>(link.j)];
+    if (link.i >= 0 && link.j >= 0) backbone.links.push_back(link);
+  }
+  if (backbone.bodies.size() == 0) return whole.floppy - whole.trivial;
+  return whole.floppy - exact_rank(backbone, law, cell_free).floppy;
+}
+
+Json near_null(const Packing<2>& packing, NetworkLaw law, bool cell_free, const ExactRank& rank) {
+  if (rank.dofs > kNearNullDofs)
+    return Json{{"values", nullptr},
+                {"reason", "not computed above " + std::to_string(kNearNullDofs) + " degrees of freedom"}};
+  try {
+    return Json{{"values", smallest_singular_values(packing, law, cell_free, kNearNullValues)}};
+  } catch (const std::length_error& e) {
+    return Json{{"values", nullptr}, {"reason", e.what()}};
+  } catch (const FactorisationFailed& e) {
+    // The exact K says that the rest is regular; CHOLMOD lost it to rounding: singular values near 1e-8 of the largest.
+    return Json{{"values", nullptr}, {"reason", std::string("softer than double precision resolves: ") + e.what()}};
+  }
+}
+
+}  // namespace
+
+Json rigidity_section(const AnalysisInput& input, const AnalysisOptions& options) {
+  const Packing<2>& packing = input.planar("rigidity");
+  const NetworkLaw law = input.network_law(options);
+  ExactRank r = exact_rank(packing, law, options.cell_free);
+  r.rattler_modes = rattler_modes(input, law, options.cell_free, r);
+  r.mechanisms = r.floppy - r.trivial - r.rattler_modes;
+
+  Json gears = Json::array();
+  for (const auto& component : gear_components(packing, law)) {
+    Json ids = Json::array();
+    for (std::size_t k = 0; k < component.size() && k < 20; ++k)
+      ids.push_back(packing.bodies.id[static_cast<std::size_t>(component[k])]);
+    gears.push_back({{"grains", component.size()}, {"first_ids", ids}});
+  }
+  Json primes = Json::array();
+  for (std::uint64_t p : r.primes) primes.push_back(p);
+  const std::string verdict = r.bounds_meet ? "proved: the bound for generic positions equals the rank modulo a prime"
+                              : r.certified
+                                  ? "special positions: two primes agree, above the bound for generic positions"
+                                  : "NOT certified: two primes disagree";
+  return Json{{"law", name_of(law)},
+              {"cell", options.cell_free ? "free" : "fixed"},
+              {"N_f", r.dofs},
+              {"M", r.rows},
+              {"rank", r.rank},
+              {"H", r.hyperstatic},
+              {"K", r.floppy},
+              {"trivial", r.trivial},
+              {"rattler_modes", r.rattler_modes},
+              {"mechanisms", r.mechanisms},
+              {"method", "exact contraction to rigid bodies, then rank of G^T W G modulo primes"},
+              {"certificate",
+               {{"certified", r.certified},
+                {"verdict", verdict},
+                {"primes", primes},
+                {"K_upper", r.floppy},
+                {"K_lower_generic", r.floppy_generic},
+                {"error_chance", 1e-12},
+                {"rigid_bodies", r.bodies},
+                {"gear_components", gears},
+                {"near_null_singular_values", near_null(packing, law, options.cell_free, r)}}}};
+}
+
+Json clusters_section(const AnalysisInput& input, const AnalysisOptions& options) {
+  const Packing<2>& packing = input.planar("clusters");
+  const RigidClusters found = rigid_clusters(packing, input.network_law(options), options.cell_free);
+  Json sizes = Json::array(), list = Json::array();
+  std::int64_t hyperstatic = 0, spanning = 0;
+  for (const RigidCluster& c : found.clusters) {
+    sizes.push_back(c.grains);
+    hyperstatic += c.hyperstatic > 0;
+    spanning += c.spans[0] || c.spans[1];
+    list.push_back(
+        {{"grains", c.grains}, {"links", c.links}, {"H", c.hyperstatic}, {"spans", {c.spans[0], c.spans[1]}}});
+  }
+  std::int64_t alone = 0;
+  for (std::int32_t c : found.cluster_of_grain) alone += c < 0;
+  return Json{{"sizes", sizes},
+              {"hyperstatic", hyperstatic},
+              {"largest", found.clusters.empty() ? 0 : found.clusters[0].grains},
+              {"spanning", spanning},
+              {"single_grains", alone},
+              {"list", list}};
+}
+
+std::vector<Table> clusters_tables(const AnalysisInput& input, const AnalysisOptions& options) {
+  const Packing<2>& packing = input.planar("clusters");
+  const RigidClusters found = rigid_clusters(packing, input.network_law(options), options.cell_free);
+  Table grains{"clusters.grains", {"id", "cluster"}, {}};
+  for (std::size_t i = 0; i < packing.bodies.size(); ++i)
+    grains.rows.push_back({static_cast<double>(packing.bodies.id[i]), static_cast<double>(found.cluster_of_grain[i])});
+  Table links{"clusters.links", {"i", "j", "s1", "s2", "cluster"}, {}};
+  for (std::size_t l = 0; l < packing.links.size(); ++l) {
+    const Link<2>& link = packing.links[l];
+    links.rows.push_back({static_cast<double>(packing.bodies.id[static_cast<std::size_t>(link.i)]),
+                          static_cast<double>(packing.bodies.id[static_cast<std::size_t>(link.j)]),
+                          static_cast<double>(link.shift[0]), static_cast<double>(link.shift[1]),
+                          static_cast<double>(found.cluster_of_link[l])});
+  }
+  return {grains, links};
+}
+
+}  // namespace isostat

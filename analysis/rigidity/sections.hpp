@@ -1,0 +1,19 @@
+// Sections of `analyze` about rigidity and stiffness (docs/rigidity.md has every key). All need a planar input.
+#pragma once
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "analysis/report.hpp"
+
+namespace isostat {
+
+nlohmann::ordered_json rigidity_section(const AnalysisInput& input, const AnalysisOptions& options);
+nlohmann::ordered_json clusters_section(const AnalysisInput& input, const AnalysisOptions& options);
+nlohmann::ordered_json stiffness_section(const AnalysisInput& input, const AnalysisOptions& options);
+nlohmann::ordered_json moduli_section(const AnalysisInput& input, const AnalysisOptions& options);
+nlohmann::ordered_json modes_section(const AnalysisInput& input, const AnalysisOptions& options);
+
+std::vector<Table> clusters_tables(const AnalysisInput& input, const AnalysisOptions& options);
+std::vector<Table> modes_tables(const AnalysisInput& input, const AnalysisOptions& options);
+
+}  // namespace isostat

@@ -1,0 +1,158 @@
+#include "analysis/stiffness/bases.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "analysis/rigidity/clusters.hpp"
+#include "analysis/rigidity/exact_rank.hpp"
+#include "analysis/rigidity/independent_columns.hpp"
+#include "analysis/rigidity/rigidity_matrix.hpp"
+#include "analysis/stiffness/pseudo_inverse.hpp"
+#include "analysis/stiffness/stiffness_matrix.hpp"
+
+namespace isostat {
+namespace {
+
+using Vector = std::vector<double>;
+
+double dot(const Vector& a, const Vector& b) {
+  double s = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) s += a[i] * b[i];
+  return s;
+}
+
+double largest(const Vector& v) {
+  double m = 0;
+  for (double x : v) m = std::max(m, std::abs(x));
+  return m;
+}
+
+NullVector scaled(Vector v) {
+  const double m = largest(v);
+  if (m > 0)
+    for (double& x : v) x /= m;
+  return {std::move(v), 0};
+}
+
+PseudoInverse normal_inverse(const Packing<2>& packing, NetworkLaw law, bool cell_free, const RigidityMatrix& g) {
+  return PseudoInverse(weighted_normal_matrix(g, Vector(static_cast<std::size_t>(g.rows()), 1.0)),
+                       dependent_columns(packing, law, cell_free), SparseCholesky::Form::definite);
+}
+
+// f - G (G^T G)^+ G^T f, twice: the second pass removes what rounding left of the first.
+Vector project_to_self_stress(const RigidityMatrix& g, const PseudoInverse& inverse, Vector f) {
+  for (int pass = 0; pass < 2; ++pass) {
+    const Vector balanced = g.link_velocities(inverse.solve(g.body_forces(f)));
+    for (std::size_t r = 0; r < f.size(); ++r) f[r] -= balanced[r];
+  }
+  return f;
+}
+
+// Orthonormal states of `packing`, up to `wanted`, orthogonal to those in `known`: unit forces projected, kept when a
+// share of their length survives. The number to be found is exact, the share only picks which unit forces are used.
+std::vector<Vector> independent_states(const Packing<2>& packing, NetworkLaw law, bool cell_free, std::size_t wanted,
+                                       std::vector<Vector> known) {
+  constexpr double kShare[] = {0.1, 1e-3, 1e-6};
+  const RigidityMatrix g = rigidity_matrix(packing, law, cell_free);
+  const PseudoInverse inverse = normal_inverse(packing, law, cell_free, g);
+  std::vector<Vector> found;
+  for (const double share : kShare)
+    for (std::size_t r = 0; r < static_cast<std::size_t>(g.rows()) && found.size() < wanted; ++r) {
+      Vector f(static_cast<std::size_t>(g.rows()), 0.0);
+      f[r] = 1;
+      f = project_to_self_stress(g, inverse, std::move(f));
+      for (int pass = 0; pass < 2; ++pass)
+        for (const auto* list : {&known, &found})
+          for (const Vector& q : *list) {
+            const double c = dot(q, f);
+            for (std::size_t k = 0; k < f.size(); ++k) f[k] -= c * q[k];
+          }
+      const double length = std::sqrt(dot(f, f));
+      if (length < share) continue;
+      for (double& x : f) x /= length;
+      found.push_back(std::move(f));
+    }
+  return found;
+}
+
+}  // namespace
+
+std::vector<NullVector> floppy_modes(const Packing<2>& packing, NetworkLaw law, bool cell_free, std::size_t most) {
+  const RigidityMatrix g = rigidity_matrix(packing, law, cell_free);
+  const std::vector<char> dependent = dependent_columns(packing, law, cell_free);
+  const PseudoInverse inverse = normal_inverse(packing, law, cell_free, g);
+  std::vector<NullVector> modes;
+  for (std::size_t c = 0; c < dependent.size() && modes.size() < most; ++c) {
+    if (!dependent[c]) continue;
+    modes.push_back(scaled(inverse.null_vector(c)));
+    modes.back().residual = largest(g.link_velocities(modes.back().value));
+  }
+  return modes;
+}
+
+std::vector<NullVector> self_stress_states(const Packing<2>& packing, NetworkLaw law, bool cell_free,
+                                           std::size_t most) {
+  const auto total = static_cast<std::size_t>(exact_rank(packing, law, cell_free).hyperstatic);
+  const std::size_t wanted = std::min(most, total);
+  const RigidityMatrix g = rigidity_matrix(packing, law, cell_free);
+  std::vector<std::size_t> first_row(packing.links.size() + 1, static_cast<std::size_t>(g.rows()));
+  for (std::size_t r = static_cast<std::size_t>(g.rows()); r-- > 0;)
+    first_row[static_cast<std::size_t>(g.link_of_row[r])] = r;
+
+  const RigidClusters clusters = rigid_clusters(packing, law, cell_free);
+  std::vector<Vector> states;
+  for (std::size_t c = 0; c < clusters.clusters.size() && states.size() < wanted; ++c) {
+    if (clusters.clusters[c].hyperstatic <= 0) continue;
+    Packing<2> part;
+    part.cell = packing.cell;
+    std::map<std::int32_t, std::int32_t> number;
+    std::vector<std::size_t> row_of;  // row of the part -> row of the whole
+    const auto local = [&](std::int32_t grain) {
+      const auto [at, fresh] = number.try_emplace(grain, static_cast<std::int32_t>(part.bodies.position.size()));
+      if (fresh) {
+        part.bodies.id.push_back(packing.bodies.id[static_cast<std::size_t>(grain)]);
+        part.bodies.position.push_back(packing.bodies.position[static_cast<std::size_t>(grain)]);
+        part.bodies.radius.push_back(packing.bodies.radius[static_cast<std::size_t>(grain)]);
+      }
+      return at->second;
+    };
+    for (std::size_t l = 0; l < packing.links.size(); ++l) {
+      if (clusters.cluster_of_link[l] != static_cast<std::int32_t>(c)) continue;
+      Link<2> link = packing.links[l];
+      link.i = local(link.i), link.j = local(link.j);
+      for (int k = 0; k < rows_of(link.kind, law).count(); ++k)
+        row_of.push_back(first_row[l] + static_cast<std::size_t>(k));
+      part.links.push_back(link);
+    }
+    const auto here = std::min(wanted - states.size(), static_cast<std::size_t>(clusters.clusters[c].hyperstatic));
+    for (const Vector& f : independent_states(part, law, cell_free, here, {})) {
+      Vector whole(static_cast<std::size_t>(g.rows()), 0.0);
+      for (std::size_t r = 0; r < f.size(); ++r) whole[row_of[r]] = f[r];
+      states.push_back(std::move(whole));
+    }
+  }
+  if (states.size() < wanted)
+    for (Vector& f : independent_states(packing, law, cell_free, wanted - states.size(), states))
+      states.push_back(std::move(f));
+
+  std::vector<NullVector> result;
+  for (Vector& f : states) {
+    result.push_back(scaled(std::move(f)));
+    result.back().residual = largest(g.body_forces(result.back().value));
+  }
+  return result;
+}
+
+ForceSplit split_forces(const Packing<2>& packing, NetworkLaw law, bool cell_free, const std::vector<double>& forces) {
+  const RigidityMatrix g = rigidity_matrix(packing, law, cell_free);
+  const PseudoInverse inverse = normal_inverse(packing, law, cell_free, g);
+  ForceSplit split;
+  split.self_stress = project_to_self_stress(g, inverse, forces);
+  split.balancing = forces;
+  for (std::size_t r = 0; r < forces.size(); ++r) split.balancing[r] -= split.self_stress[r];
+  split.residual = largest(g.body_forces(split.self_stress));
+  return split;
+}
+
+}  // namespace isostat

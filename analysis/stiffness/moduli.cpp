@@ -1,0 +1,61 @@
+#include "analysis/stiffness/moduli.hpp"
+
+#include "analysis/rigidity/independent_columns.hpp"
+#include "analysis/stiffness/pseudo_inverse.hpp"
+#include "analysis/stiffness/stiffness_matrix.hpp"
+#include "dem/link.hpp"
+
+namespace isostat {
+namespace {
+
+// Link velocities of unit strains with the grains held: affine relative velocity -e r of the branch vectors.
+std::array<std::vector<double>, 3> strain_velocities(const Packing<2>& packing, const RigidityMatrix& g) {
+  std::array<std::vector<double>, 3> s;
+  for (auto& v : s) v.resize(static_cast<std::size_t>(g.rows()));
+  for (std::size_t row = 0; row < s[0].size(); ++row) {
+    const Link<2>& link = packing.links[static_cast<std::size_t>(g.link_of_row[row])];
+    const auto i = static_cast<std::size_t>(link.i), j = static_cast<std::size_t>(link.j);
+    Vec2 r = packing.bodies.position[j] - packing.bodies.position[i];
+    if (packing.cell) r += packing.cell->offset(link.shift);
+    const auto frame = link_frame(r[0], r[1], packing.bodies.radius[i], packing.bodies.radius[j]);
+    const std::array<Vec2, 3> affine = {Vec2{{-r[0], 0}}, Vec2{{0, -r[1]}}, Vec2{{-0.5 * r[1], -0.5 * r[0]}}};
+    for (std::size_t b = 0; b < 3; ++b) {
+      const auto v = link_velocity(frame, affine[b][0], affine[b][1], 0.0, 0.0);
+      s[b][row] = g.component[row] == 0 ? v.normal : g.component[row] == 1 ? v.tangential : v.rolling;
+    }
+  }
+  return s;
+}
+
+double dot(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+}  // namespace
+
+Moduli elastic_moduli(const Packing<2>& packing, NetworkLaw network_law, const LawParameters& law) {
+  const RigidityMatrix g = rigidity_matrix(packing, network_law, false);
+  const std::vector<double> k = row_stiffness(packing, g, law);
+  bool definite = true;
+  for (double v : k) definite = definite && v > 0;
+  const PseudoInverse inverse(weighted_normal_matrix(g, k), dependent_columns(packing, network_law, false),
+                              definite ? SparseCholesky::Form::definite : SparseCholesky::Form::indefinite);
+  const auto strain = strain_velocities(packing, g);
+  std::array<std::vector<double>, 3> force, load;  // k s and G^T k s
+  for (std::size_t b = 0; b < 3; ++b) {
+    force[b] = strain[b];
+    for (std::size_t r = 0; r < k.size(); ++r) force[b][r] *= k[r];
+    load[b] = g.body_forces(force[b]);
+  }
+  Moduli c{};
+  const double area = packing.cell->measure();
+  for (std::size_t b = 0; b < 3; ++b) {
+    const std::vector<double> relaxed = inverse.solve(load[b]);  // grains move by -relaxed
+    for (std::size_t a = 0; a < 3; ++a) c[a][b] = (dot(strain[a], force[b]) - dot(load[a], relaxed)) / area;
+  }
+  return c;
+}
+
+}  // namespace isostat

@@ -1,0 +1,27 @@
+// Elastic moduli of a periodic cell: stress response to the strains e11, e22, gamma12 (compression positive for the
+// first two) with every grain relaxed. 2D moduli are forces per length.
+#pragma once
+#include <array>
+#include <string>
+
+#include "analysis/report.hpp"
+#include "dem/scene.hpp"
+
+namespace isostat {
+
+using Moduli = std::array<std::array<double, 3>, 3>;  // [F0/a] dsigma_a / de_b, order 11, 22, 12
+
+// Of Gt k G, the tangent at zero force. Exists for floppy networks too: mechanisms resist nothing, and the load of a
+// strain is always in the range of a positive k. Throws FactorisationFailed if distant links make the rest singular.
+Moduli elastic_moduli(const Packing<2>& packing, NetworkLaw network_law, const LawParameters& law);
+
+// With the geometric term: forces of the links turn with their frames and levers stretch. Not symmetric when there are
+// tangential forces; solved by UMFPACK. The response is of sigma = (1/A) sum F r, with A and r at the strained state.
+struct TangentModuli {
+  Moduli tensor{};
+  double antisymmetric_part = 0;  // |K - K^T| / |K + K^T|, Frobenius norms, of the tangent stiffness of the grains
+};
+// Throws FactorisationFailed if the tangent is singular beyond the translations and the grains without links.
+TangentModuli tangent_moduli(const Packing<2>& packing, NetworkLaw network_law, const LawParameters& law);
+
+}  // namespace isostat

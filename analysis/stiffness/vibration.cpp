@@ -1,0 +1,44 @@
+#include "analysis/stiffness/vibration.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/rigidity/independent_columns.hpp"
+#include "analysis/stiffness/lowest_modes.hpp"
+#include "analysis/stiffness/stiffness_matrix.hpp"
+#include "dem/input_error.hpp"
+
+namespace isostat {
+
+LawParameters law_of(const AnalysisInput& input) {
+  return input.state && input.state->law.normal_stiffness > 0 ? input.state->law : default_network_law();
+}
+
+VibrationModes vibration_modes(const Packing<2>& packing, NetworkLaw network_law, const LawParameters& law, int count,
+                               bool displacements) {
+  const RigidityMatrix g = rigidity_matrix(packing, network_law, false);
+  const std::vector<double> k = row_stiffness(packing, g, law);
+  const std::vector<char> dependent = dependent_columns(packing, network_law, false);
+
+  VibrationModes modes;
+  modes.per_body = g.layout.per_body;
+  std::vector<double> mass;
+  for (std::size_t i = 0; i < packing.bodies.size(); ++i) {
+    if (!(packing.bodies.mass[i] > 0) || !(packing.bodies.inertia[i] > 0))
+      throw InputError("bodies", 0, "mass", std::to_string(packing.bodies.mass[i]),
+                       "vibrations need positive masses and inertias");
+    mass.push_back(packing.bodies.mass[i]);
+    mass.push_back(packing.bodies.mass[i]);
+    if (modes.per_body == 3) mass.push_back(packing.bodies.inertia[i]);
+  }
+  modes.zero_modes = std::count(dependent.begin(), dependent.end(), 1);
+  const bool definite = std::all_of(k.begin(), k.end(), [](double v) { return v > 0; });
+  LowestModes lowest =
+      lowest_modes(weighted_normal_matrix(g, k), dependent, std::move(mass), count, definite, displacements);
+  modes.converged = lowest.converged;
+  modes.displacement = std::move(lowest.vector);
+  for (double lambda : lowest.value) modes.omega.push_back(lambda >= 0 ? std::sqrt(lambda) : -std::sqrt(-lambda));
+  return modes;
+}
+
+}  // namespace isostat

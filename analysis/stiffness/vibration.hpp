@@ -1,0 +1,26 @@
+// Vibration modes of the grains in a fixed cell: K u = omega^2 M u.
+#pragma once
+#include <vector>
+
+#include "analysis/report.hpp"
+#include "dem/scene.hpp"
+
+namespace isostat {
+
+struct VibrationModes {
+  int per_body = 3;             // 2 for frictionless networks
+  std::int64_t zero_modes = 0;  // K, exact; not among those below
+  std::vector<double> omega;    // [1/T0] ascending magnitude; -|omega| for an unstable mode (omega^2 < 0)
+  std::vector<std::vector<double>> displacement;  // by mode: per_body numbers a body (vx, vy, spin), M-orthonormal
+  bool converged = true;
+};
+
+// The `count` modes of smallest |omega| > 0. Throws InputError for grains without mass; FactorisationFailed or
+// std::length_error (too many zero modes to project out) as in pseudo_inverse.hpp.
+VibrationModes vibration_modes(const Packing<2>& packing, NetworkLaw network_law, const LawParameters& law, int count,
+                               bool displacements);
+
+// Law and rows for an input: the state's own law, or the default of a network.
+LawParameters law_of(const AnalysisInput& input);
+
+}  // namespace isostat

@@ -1,0 +1,208 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "analysis/rigidity/exact_rank.hpp"
+#include "analysis/rigidity/independent_columns.hpp"
+#include "analysis/rigidity/sections.hpp"
+#include "analysis/stiffness/lowest_modes.hpp"
+#include "analysis/stiffness/moduli.hpp"
+#include "analysis/stiffness/soft_modes.hpp"
+#include "analysis/stiffness/stiffness_matrix.hpp"
+#include "analysis/stiffness/vibration.hpp"
+#include "dem/network_file.hpp"
+#include "tests/oracle/random_network.hpp"
+
+namespace isostat {
+namespace {
+
+constexpr NetworkLaw kLaws[] = {NetworkLaw::frictionless, NetworkLaw::friction, NetworkLaw::rolling};
+
+Packing<2> cluster(const char* name) {
+  return read_network<2>(std::string(ISOSTAT_DATA "/clusters/") + name + ".net").packing;
+}
+
+Eigen::MatrixXd dense(const RigidityMatrix& g) {
+  Eigen::MatrixXd d = Eigen::MatrixXd::Zero(g.rows(), g.columns());
+  for (Eigen::Index r = 0; r < g.rows(); ++r)
+    for (auto e = g.row_start[static_cast<std::size_t>(r)]; e < g.row_start[static_cast<std::size_t>(r) + 1]; ++e)
+      d(r, g.column[static_cast<std::size_t>(e)]) = g.value[static_cast<std::size_t>(e)];
+  return d;
+}
+
+Packing<2> network(std::uint64_t seed, double z = 3.6, int size = 6) {
+  RandomNetwork o;
+  o.columns = o.rows = size, o.seed = seed, o.coordination = z, o.periodic = seed % 2 == 0;
+  o.sliding = o.rolling_yielded = 0.05;
+  return random_network(o);
+}
+
+TEST(IndependentColumns, AreIndependentAndComplete) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed)
+    for (const NetworkLaw law : kLaws) {
+      const Packing<2> p = network(seed, 2.5 + 0.1 * static_cast<double>(seed));
+      const bool cell_free = p.cell && seed % 4 == 0;
+      const auto dependent = dependent_columns(p, law, cell_free);
+      const auto k = std::count(dependent.begin(), dependent.end(), 1);
+      EXPECT_EQ(k, exact_rank(p, law, cell_free).floppy);
+      const Eigen::MatrixXd g = dense(rigidity_matrix(p, law, cell_free));
+      Eigen::MatrixXd kept(g.rows(), g.cols() - k);
+      for (Eigen::Index c = 0, to = 0; c < g.cols(); ++c)
+        if (!dependent[static_cast<std::size_t>(c)]) kept.col(to++) = g.col(c);
+      if (kept.cols() > 0) {
+        EXPECT_GT(Eigen::JacobiSVD<Eigen::MatrixXd>(kept).singularValues().minCoeff(), 1e-9);
+      }
+    }
+}
+
+TEST(StiffnessMatrix, EqualsDenseProduct) {
+  const Packing<2> p = network(2);
+  const LawParameters law = default_network_law();
+  const RigidityMatrix g = rigidity_matrix(p, NetworkLaw::rolling, true);
+  const auto k = row_stiffness(p, g, law);
+  const SymmetricMatrix a = weighted_normal_matrix(g, k);
+  const Eigen::MatrixXd d = dense(g);
+  const Eigen::MatrixXd expected =
+      d.transpose() * Eigen::Map<const Eigen::VectorXd>(k.data(), static_cast<Eigen::Index>(k.size())).asDiagonal() * d;
+  Eigen::MatrixXd got = Eigen::MatrixXd::Zero(a.size, a.size);
+  for (std::int32_t c = 0; c < a.size; ++c)
+    for (auto e = static_cast<std::size_t>(a.start[static_cast<std::size_t>(c)]);
+         e < static_cast<std::size_t>(a.start[static_cast<std::size_t>(c) + 1]); ++e)
+      got(a.row[e], c) = got(c, a.row[e]) = a.value[e];
+  EXPECT_LT((got - expected).norm(), 1e-14 * expected.norm());
+}
+
+TEST(LowestModes, LanczosEqualsDense) {
+  for (std::uint64_t seed : {2u, 4u}) {
+    const Packing<2> p = network(seed, 4.2, 14);  // 588 columns: the sparse way
+    const RigidityMatrix g = rigidity_matrix(p, NetworkLaw::friction, false);
+    const auto k = row_stiffness(p, g, default_network_law());
+    const SymmetricMatrix a = weighted_normal_matrix(g, k);
+    ASSERT_GT(a.size, kDenseSize);
+    const auto dependent = dependent_columns(p, NetworkLaw::friction, false);
+    const LowestModes modes = lowest_modes(a, dependent, {}, 8, true, true);
+    ASSERT_TRUE(modes.converged);
+    const Eigen::MatrixXd d = dense(g);
+    const Eigen::MatrixXd full =
+        d.transpose() * Eigen::Map<const Eigen::VectorXd>(k.data(), static_cast<Eigen::Index>(k.size())).asDiagonal() *
+        d;
+    const Eigen::VectorXd lambda = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(full).eigenvalues();
+    const auto zero = std::count(dependent.begin(), dependent.end(), 1);
+    for (std::size_t m = 0; m < modes.value.size(); ++m) {
+      EXPECT_NEAR(modes.value[m] / lambda[zero + static_cast<Eigen::Index>(m)], 1, 1e-6);
+      const auto av = a.multiply(modes.vector[m]);
+      double residual = 0;
+      for (std::size_t i = 0; i < av.size(); ++i)
+        residual = std::max(residual, std::abs(av[i] - modes.value[m] * modes.vector[m][i]));
+      EXPECT_LT(residual, 1e-9 * lambda.maxCoeff());
+    }
+  }
+}
+
+// A periodic square lattice of disks of diameter d: contacts along x and y.
+// e11 stretches the x contacts only: C11 = K_N, C12 = 0. gamma12 with spins relaxed (by symmetry w = 0 in the symmetric
+// shear): each contact slides by gamma d / 2, energy K_T (gamma d / 2)^2 / 2 times two contacts a disk: C33 = K_T / 2.
+TEST(Moduli, SquareLattice) {
+  const Packing<2> p = cluster("periodic_square3x3");
+  LawParameters law = default_network_law();
+  law.normal_stiffness = 7, law.tangential_stiffness = 3;
+  const Moduli c = elastic_moduli(p, NetworkLaw::friction, law);
+  const double expected[3][3] = {{7, 0, 0}, {0, 7, 0}, {0, 0, 1.5}};
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b)
+      EXPECT_NEAR(c[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)], expected[a][b], 7e-12);
+  const Moduli loose = elastic_moduli(p, NetworkLaw::frictionless, law);
+  EXPECT_NEAR(loose[0][0], 7, 7e-12);
+  EXPECT_NEAR(loose[2][2], 0, 7e-12);
+}
+
+// Triangular lattice: all affine by symmetry. Sum over three bond directions at 0, 60, 120 degrees, cell area per disk
+// sqrt(3)/2 d^2: C11 = (sqrt(3)/4)(3 K_N + K_T), C12 = (sqrt(3)/4)(K_N - K_T), C33 = (sqrt(3)/4)(K_N + K_T).
+TEST(Moduli, TriangularLattice) {
+  const Packing<2> p = cluster("periodic_triangular4");
+  LawParameters law = default_network_law();
+  law.normal_stiffness = 5, law.tangential_stiffness = 2;
+  const Moduli c = elastic_moduli(p, NetworkLaw::friction, law);
+  const double q = std::sqrt(3.0) / 4;
+  EXPECT_NEAR(c[0][0], q * 17, 1e-11);
+  EXPECT_NEAR(c[1][1], q * 17, 1e-11);
+  EXPECT_NEAR(c[0][1], q * 3, 1e-11);
+  EXPECT_NEAR(c[2][2], q * 7, 1e-11);
+  EXPECT_NEAR(c[0][2], 0, 1e-11);
+  const Moduli central = elastic_moduli(p, NetworkLaw::frictionless, law);  // Cauchy: C12 = C33
+  EXPECT_NEAR(central[0][1], q * 5, 1e-11);
+  EXPECT_NEAR(central[2][2], q * 5, 1e-11);
+}
+
+// Without forces the geometric term is absent: UMFPACK on the tangent against CHOLMOD on Gt k G.
+TEST(Moduli, TangentWithoutForcesIsTheSymmetricOne) {
+  for (std::uint64_t seed : {2u, 6u, 8u}) {
+    const Packing<2> p = network(seed, 5.0);
+    ASSERT_EQ(exact_rank(p, NetworkLaw::rolling, false).mechanisms, 0);
+    const LawParameters law = default_network_law();
+    const Moduli symmetric = elastic_moduli(p, NetworkLaw::rolling, law);
+    const TangentModuli tangent = tangent_moduli(p, NetworkLaw::rolling, law);
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t b = 0; b < 3; ++b) EXPECT_NEAR(tangent.tensor[a][b], symmetric[a][b], 1e-9 * symmetric[0][0]);
+    EXPECT_LT(tangent.antisymmetric_part, 1e-12);
+  }
+}
+
+// Two disks bound by one contact: omega^2 = K_N / reduced mass along the normal; sliding turns both disks.
+TEST(Vibration, PairOfDisks) {
+  const Packing<2> p = cluster("pair");
+  LawParameters law = default_network_law();
+  law.normal_stiffness = 3, law.tangential_stiffness = 2;
+  const VibrationModes modes = vibration_modes(p, NetworkLaw::friction, law, 5, true);
+  EXPECT_EQ(modes.zero_modes, 4);
+  ASSERT_EQ(modes.omega.size(), 2u);
+  const double inverse_mass = 1 / p.bodies.mass[0] + 1 / p.bodies.mass[1];
+  const double normal = std::sqrt(3 * inverse_mass);
+  const double li = 0.5, lj = 0.4;
+  const double sliding = std::sqrt(2 * (inverse_mass + li * li / p.bodies.inertia[0] + lj * lj / p.bodies.inertia[1]));
+  EXPECT_NEAR(modes.omega[0], std::min(normal, sliding), 1e-12);
+  EXPECT_NEAR(modes.omega[1], std::max(normal, sliding), 1e-12);
+}
+
+TEST(SoftModes, SmallestSingularValueOfAnOverlappingTriangle) {
+  // Dense reference with the same scaling of spins.
+  const Packing<2> p = cluster("double_triangle_overlap");
+  Eigen::MatrixXd g = dense(rigidity_matrix(p, NetworkLaw::friction, false));
+  for (Eigen::Index i = 0; i < 4; ++i) g.col(3 * i + 2) /= p.bodies.radius[static_cast<std::size_t>(i)];
+  const Eigen::VectorXd sigma = Eigen::JacobiSVD<Eigen::MatrixXd>(g).singularValues();
+  const auto found = smallest_singular_values(p, NetworkLaw::friction, false, 3);
+  ASSERT_EQ(found.size(), 3u);
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(found[static_cast<std::size_t>(k)], sigma[8 - k], 1e-10);
+}
+
+TEST(RigiditySections, FollowTheContract) {
+  AnalysisInput input;
+  input.path = "k23.net";
+  input.packing = cluster("k23");
+  const auto rigidity = rigidity_section(input, {});
+  for (const char* key :
+       {"law", "cell", "N_f", "M", "rank", "H", "K", "trivial", "rattler_modes", "mechanisms", "method", "certificate"})
+    EXPECT_TRUE(rigidity.contains(key)) << key;
+  EXPECT_EQ(rigidity["K"], 4);
+  EXPECT_EQ(rigidity["H"], 1);
+  EXPECT_EQ(rigidity["certificate"]["gear_components"].size(), 1u);
+  EXPECT_GT(rigidity["certificate"]["near_null_singular_values"]["values"][0].get<double>(), 0.01);
+  EXPECT_EQ(clusters_section(input, {})["sizes"].size(), 0u);
+  const auto stiffness = stiffness_section(input, {});
+  EXPECT_EQ(stiffness["inertia"], nlohmann::ordered_json::parse("[0, 4, 11]"));
+  EXPECT_EQ(stiffness["positive_definite"], false);
+  EXPECT_THROW(moduli_section(input, {}), std::exception);
+}
+
+TEST(RigiditySections, DistantLinksMakeTheStiffnessIndefinite) {
+  // Two disks and a distant link alone: one negative direction.
+  AnalysisInput input;
+  input.path = "distant.net";
+  input.packing = parse_network<2>("grain 0 0 0 .5\ngrain 1 1.0005 0 .5\ncontact 0 1 d\n", "distant.net").packing;
+  EXPECT_EQ(stiffness_section(input, {})["inertia"], nlohmann::ordered_json::parse("[1, 5, 0]"));
+}
+
+}  // namespace
+}  // namespace isostat
