@@ -174,9 +174,25 @@ Json merge(const std::string& key, const Values& values) {
   return one_per_input(values);
 }
 
+// A section's own way of merging, where it has one; only over the inputs that have the section.
+void merge_section(const Section& section, const std::vector<Json>& reports, Json& merged) {
+  const std::string name(section.name);
+  if (!section.align && !section.pooled) return;
+  std::vector<Json> parts;
+  for (const Json& r : reports)
+    if (r.contains(name)) parts.push_back(r.at(name));
+  if (parts.size() < 2) return;
+  const bool aligned = !section.align || section.align(parts);
+  Values values;
+  for (const Json& p : parts) values.push_back(&p);
+  merged[name] = aligned ? merge_objects(values) : one_per_input(values);
+  if (aligned && section.pooled) merged[name]["pooled"] = section.pooled(parts);
+}
+
 }  // namespace
 
-nlohmann::ordered_json merge_reports(const std::vector<nlohmann::ordered_json>& reports) {
+nlohmann::ordered_json merge_reports(const std::vector<nlohmann::ordered_json>& reports,
+                                     const std::vector<Section>& table) {
   if (reports.size() == 1) return reports.front();
   Values values;
   Json inputs = Json::array();
@@ -186,6 +202,7 @@ nlohmann::ordered_json merge_reports(const std::vector<nlohmann::ordered_json>& 
   }
   Json json = merge_objects(values);
   json["inputs"] = inputs;
+  for (const Section& section : table) merge_section(section, reports, json);
   if (json.contains("units")) {  // numbers of the unit table are no sample
     Values units;
     for (const Json& r : reports) units.push_back(&r.at("units"));

@@ -3,6 +3,8 @@
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
+#include "analysis/report.hpp"
+
 namespace isostat {
 
 // sd is the sample standard deviation (n - 1), se = sd / sqrt(n); both null for n = 1. Inputs where a number is null or
@@ -10,6 +12,8 @@ namespace isostat {
 // exceptions: "inputs" is concatenated; "x" is padded with zeros; equal strings, booleans and bin edges stay as they
 // are; histograms ({"edges", "density"}) of equal bin width are aligned, a bin outside a sample's range being empty;
 // arrays of different lengths, lists of objects, ids, and differing strings become one entry an input.
-nlohmann::ordered_json merge_reports(const std::vector<nlohmann::ordered_json>& reports);
+// A section with its own `align` and `pooled` is aligned first, and gets its pooled value.
+nlohmann::ordered_json merge_reports(const std::vector<nlohmann::ordered_json>& reports,
+                                     const std::vector<Section>& table = sections());
 
 }  // namespace isostat

@@ -44,6 +44,11 @@ struct Section {
   nlohmann::ordered_json (*compute)(const AnalysisInput&, const AnalysisOptions&);
   // Rows too many for the report, computed only for --csv. What the JSON value holds becomes tables by itself.
   std::vector<Table> (*tables)(const AnalysisInput&, const AnalysisOptions&) = nullptr;
+  // Ensembles of binned curves: brings the values of several inputs onto common bins before they are merged entry by
+  // entry; false: they have none, and the merged report keeps one value an input.
+  bool (*align)(std::vector<nlohmann::ordered_json>&) = nullptr;
+  // What is computed from all inputs together and not by averaging; stands as "pooled" in the merged section.
+  nlohmann::ordered_json (*pooled)(const std::vector<nlohmann::ordered_json>&) = nullptr;
 };
 const std::vector<Section>& sections();  // in the order of the report
 
