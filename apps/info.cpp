@@ -62,6 +62,13 @@ Json scales_json(const Scales& s) {
           {"dt_critical", number(s.critical_time_step)}};
 }
 
+// The law as it acts, every default filled in; docs/formats.md has the units.
+Json law_json(const LawParameters& law) {
+  const auto& [kn, kt, zeta, mu, mu_r, kr, f0, d0] = law;
+  return {{"normal_stiffness", kn},   {"tangential_stiffness", kt}, {"damping", zeta},  {"friction", mu},
+          {"rolling_friction", mu_r}, {"rolling_stiffness", kr},    {"attraction", f0}, {"attraction_range", d0}};
+}
+
 // The same quantities, and the units, in SI: m, kg, N, s; stress and stiffness in the plane in N/m.
 Json si_json(const State& state, const Scales& s) {
   const SiScales si = si_scales(*state.scene.units);
@@ -89,6 +96,7 @@ Json info_json(const StateFile& file) {
   json["time"] = state.time;
   json["seed"] = state.seed;
   json["scene"] = scene_json(state.scene);
+  json["law"] = law_json(state.law);
   json["scales"] = scales_json(s);
   if (state.scene.units) json["si"] = si_json(state, s);
   json["provenance"] = {{"version", file.provenance.version},

@@ -53,6 +53,8 @@ TEST_F(InfoCommand, PrintsTheContract) {
   EXPECT_EQ(j["scene"]["finish"]["method"], "drag");
   EXPECT_EQ(j["scene"]["stage"][0]["pressure"], 0.01);
   EXPECT_FALSE(j["scene"].contains("units"));
+  EXPECT_EQ(j["law"]["rolling_friction"], 0.005);
+  EXPECT_EQ(j["law"]["tangential_stiffness"], 1e5);
   const json& s = j["scales"];
   EXPECT_DOUBLE_EQ(s["kappa"], 1e5);
   EXPECT_DOUBLE_EQ(s["P*"], 0.01);

@@ -1,0 +1,68 @@
+// Bad input to the program: one message that names every fault, exit code 2, nothing written.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/apps/program.hpp"
+
+namespace isostat {
+namespace {
+
+using ::testing::HasSubstr;
+using BadInput = Program;
+
+void write(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
+
+TEST_F(BadInput, AllFaultsOfASceneAtOnce) {
+  write(in_folder("scene.toml"),
+        "[grains]\ncount = 0\nsolid_fraction = 0.9\n[law]\nfrictoin = 0.5\nnormal_stiffness = nan\n[[stage]]\npressure "
+        "= -1\n");
+  const Outcome o = run("pack " + in_folder("scene.toml") + " -o " + in_folder("state.h5") + " --set law.damping=2");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_EQ(o.out, "");
+  EXPECT_THAT(o.err, HasSubstr("scene.toml:2: grains.count = 0: integer in [1, 1e+09]"));
+  EXPECT_THAT(o.err, HasSubstr("scene.toml:3: grains.solid_fraction = 0.9"));
+  EXPECT_THAT(o.err, HasSubstr("scene.toml:5: law.frictoin = 0.5: unknown key; did you mean law.friction?"));
+  EXPECT_THAT(o.err, HasSubstr("scene.toml:6: law.normal_stiffness = nan"));
+  EXPECT_THAT(o.err, HasSubstr("scene.toml:8: stage.0.pressure = -1"));
+  EXPECT_THAT(o.err, HasSubstr("--set: law.damping = 2"));
+  EXPECT_FALSE(std::filesystem::exists(in_folder("state.h5")));
+}
+
+TEST_F(BadInput, OutputThatCannotBeWritten) {
+  const std::string scene = " " ISOSTAT_DATA "/scenes/disks-method1.toml --set grains.count=20";
+  for (const std::string& path :
+       {in_folder("no/such/folder/state.h5"), std::string("/tmp"), std::string("/dev/null")}) {
+    const Outcome o = run("pack" + scene + " -o " + path);
+    EXPECT_EQ(o.code, 2) << path;
+    EXPECT_THAT(o.err, HasSubstr(path));
+  }
+}
+
+TEST_F(BadInput, DamagedStates) {
+  const std::string whole = in_folder("state.h5");
+  ASSERT_EQ(run("convert " ISOSTAT_DATA "/clusters/periodic_square3x3.net -o " + whole).code, 0);
+  ASSERT_EQ(run("info " + whole).code, 0);
+  const std::string bytes = content(whole);
+  const auto refused = [&](const std::string& what, const std::string& damaged, const std::string& reason) {
+    write(in_folder("damaged.h5"), damaged);
+    for (const std::string command : {"info ", "analyze "}) {
+      const Outcome o = run(command + in_folder("damaged.h5"));
+      EXPECT_EQ(o.code, 2) << command << what;
+      EXPECT_EQ(o.out, "") << command << what;
+      EXPECT_THAT(o.err, HasSubstr(reason)) << command << what;
+    }
+  };
+  refused("truncated", bytes.substr(0, bytes.size() / 2), "truncated");
+  std::string flipped = bytes;
+  flipped[bytes.size() - 100] = static_cast<char>(flipped[bytes.size() - 100] ^ 4);
+  refused("flipped", flipped, "damaged");
+  std::string later = bytes;
+  later.replace(later.find("format version 1"), 16, "format version 3");
+  refused("later", later, "format version 1");
+}
+
+}  // namespace
+}  // namespace isostat
