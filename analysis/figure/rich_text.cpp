@@ -35,7 +35,12 @@ RichText rich(std::string_view markup) {
 RichText plain(std::string_view text) { return text.empty() ? RichText{} : RichText{{std::string(text), false, 0}}; }
 
 RichText operator+(RichText a, const RichText& b) {
-  a.insert(a.end(), b.begin(), b.end());
+  for (const TextRun& run : b) {
+    if (!a.empty() && a.back().italic == run.italic && a.back().script == run.script)
+      a.back().text += run.text;
+    else
+      a.push_back(run);
+  }
   return a;
 }
 

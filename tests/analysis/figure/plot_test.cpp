@@ -1,0 +1,245 @@
+// From result files to charts.
+#include "analysis/figure/plot.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "analysis/figure/scattering_curve.hpp"
+#include "dem/input_error.hpp"
+
+namespace isostat {
+namespace {
+
+using Json = nlohmann::json;
+
+const JsonPlot& json_plot(std::string_view name) {
+  for (const JsonPlot& p : json_plots())
+    if (p.name == name) return p;
+  throw std::logic_error("no such plot");
+}
+const TablePlot& table_plot(std::string_view name) {
+  for (const TablePlot& p : table_plots())
+    if (p.name == name) return p;
+  throw std::logic_error("no such plot");
+}
+
+Json parsed(const std::string& name) {
+  std::ifstream in(std::string(ISOSTAT_DATA) + name);
+  return Json::parse(in);
+}
+
+std::string message_of(const auto& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "(no error)";
+}
+
+// Eq. 28 against 2F1 to 14 digits, near d_F = 2 relative to its value at k = 0 since it vanishes there.
+TEST(ScatteringCurve, AgreesWithTheTable) {
+  for (const Json& row : parsed("/geometry/hyp2f1_table.json")["rows"]) {
+    const double d = row[0], x = row[1], expected = row[2];
+    for (const double xi : {1.0, 7.3}) {
+      const double scale = 2.5 * std::tgamma(d) * std::pow(xi, d);
+      EXPECT_NEAR(scattering_curve(x / xi, {d, xi, 2.5, 0.125}), 0.125 + scale * expected,
+                  1e-13 * (0.125 + scale * expected) + 1e-15 * scale * std::pow(1 + x * x, -d / 2))
+          << d << ' ' << x;
+    }
+  }
+}
+
+// The fit drawn is the fit of the file: it goes through the noiseless points.
+TEST(ScatteringPlot, DrawsPointsErrorBarsAndFit) {
+  const Json cases = parsed("/geometry/fit_cases.json");
+  const Json& c = cases[0];
+  const Json& fit = c["fit"];
+  const Json result = {{"units", {{"length", "a"}}},
+                       {"scattering",
+                        {{"k", c["k"]},
+                         {"I", c["I"]},
+                         {"sigma", c["sigma"]},
+                         {"fit",
+                          {{"d_F", fit["dF"]},
+                           {"d_F_error", 0.0122},
+                           {"xi", fit["xi"]},
+                           {"xi_error", 1.13},
+                           {"amplitude", fit["amp"]},
+                           {"constant", fit["cst"]}}}}}};
+  const Plot plot = json_plot("scattering").make(result, "r.json");
+  ASSERT_EQ(plot.charts.size(), 1u);
+  const Chart& chart = plot.charts[0];
+  EXPECT_TRUE(chart.x.log && chart.y.log);
+  ASSERT_EQ(chart.curves.size(), 2u);
+  EXPECT_EQ(chart.curves[0].y, c["I"].get<std::vector<double>>());
+  EXPECT_EQ(chart.curves[0].error, c["sigma"].get<std::vector<double>>());
+  const Curve& line = chart.curves[1];
+  for (std::size_t b = 0; b < c["k"].size(); ++b) {
+    const double k = c["k"][b], intensity = c["I"][b];
+    std::size_t at = 1;
+    while (at + 1 < line.x.size() && line.x[at] < k) ++at;
+    const double t = std::log(k / line.x[at - 1]) / std::log(line.x[at] / line.x[at - 1]);
+    EXPECT_NEAR(std::exp(std::log(line.y[at - 1]) * (1 - t) + std::log(line.y[at]) * t), intensity, 2e-4 * intensity);
+  }
+  EXPECT_EQ(chart.notes[0].back().text, " = 1.530 \u00b1 0.012");
+}
+
+TEST(ScatteringPlot, EnsembleUsesTheErrorOfTheMean) {
+  const auto number = [](double mean, double se) { return Json{{"mean", mean}, {"sd", 2 * se}, {"se", se}}; };
+  const Json result = {{"scattering",
+                        {{"k", {1.0, 2.0}},
+                         {"I", {number(5, 0.5), number(3, 0.25)}},
+                         {"sigma", {1.0, 1.0}},
+                         {"fit",
+                          {{"d_F", number(1.5, 0.03)},
+                           {"xi", number(8, 0.4)},
+                           {"amplitude", number(2, 0.1)},
+                           {"constant", number(0, 0.1)}}}}}};
+  const Plot plot = json_plot("scattering").make(result, "r.json");
+  EXPECT_EQ(plot.charts[0].curves[0].y, (std::vector{5.0, 3.0}));
+  EXPECT_EQ(plot.charts[0].curves[0].error, (std::vector{0.5, 0.25}));
+  EXPECT_EQ(plot.charts[0].notes[0].back().text, " = 1.50 \u00b1 0.03");
+}
+
+TEST(ScatteringPlot, EmptyBinsAndAMissingFitAreLeftOut) {
+  const Json result = {{"scattering",
+                        {{"k", {1.0, 2.0, 4.0}},
+                         {"I", {3.0, nullptr, 1.0}},
+                         {"sigma", {0.1, nullptr, 0.1}},
+                         {"fit", {{"d_F", nullptr}, {"xi", nullptr}}}}}};
+  const Plot plot = json_plot("scattering").make(result, "r.json");
+  ASSERT_EQ(plot.charts[0].curves.size(), 1u);
+  EXPECT_TRUE(std::isnan(plot.charts[0].curves[0].y[1]));
+}
+
+TEST(CoordinationPlot, InPercent) {
+  const Json result = {{"counts", {{"z", 3.05}, {"x", {0.0, 0.1, 0.9}}}}};
+  const Plot plot = json_plot("coordination").make(result, "r.json");
+  EXPECT_EQ(plot.charts[0].curves[0].x, (std::vector{0.0, 1.0, 2.0}));
+  EXPECT_NEAR(plot.charts[0].curves[0].y[2], 90, 1e-12);
+}
+
+TEST(ForcePlots, HistogramsKeepTheirEdges) {
+  const Json result = {{"units", {{"force", "F0"}}},
+                       {"forces",
+                        {{"histograms",
+                          {{"N", {{"edges", {-0.2, -0.1, 0.0, 0.1, 0.2}}, {"density", {0.0, 4.0, 6.0, 0.0}}}},
+                           {"angle", {{"edges", {0.0, 90.0, 180.0}}, {"density", {0.008, 0.003}}}},
+                           {"NT", {{"edges", {{0.0, 1.0, 2.0}, {0.0, 1.0}}}, {"density", {{0.25}, {0.75}}}}}}}}}};
+  const Chart n = json_plot("force-histogram").make(result, "r.json").charts[0];
+  EXPECT_EQ(n.curves[0].x, (std::vector{-0.1, 0.0, 0.1}));  // empty ends cut
+  EXPECT_EQ(n.curves[0].y, (std::vector{4.0, 6.0}));
+  const Chart angle = json_plot("angle").make(result, "r.json").charts[0];
+  EXPECT_EQ(angle.curves[0].x.size(), 3u);
+  const Chart nt = json_plot("NT").make(result, "r.json").charts[0];
+  EXPECT_EQ(nt.curves[0].y, (std::vector{0.25, 0.75}));
+  EXPECT_THROW(json_plot("angle").make(Json::object(), "r.json"), InputError);
+  EXPECT_THROW(json_plot("force-histogram").make(Json{{"forces", 3}}, "r.json"), InputError);
+}
+
+TEST(PoresPlot, CountsThePoresThatAreLarger) {
+  const Json result = {
+      {"pores", {{"list", {{{"R", 2.0}}, {{"R", 0.5}}, {{"R", nullptr}, {"percolating", true}}, {{"R", 1.0}}}}}}};
+  const Curve curve = json_plot("pores").make(result, "r.json").charts[0].curves[0];
+  EXPECT_EQ(curve.x, (std::vector{0.5, 0.5, 1.0, 1.0, 2.0, 2.0}));
+  EXPECT_EQ(curve.y, (std::vector{3.0, 2.0, 2.0, 1.0, 1.0, 0.0}));
+}
+
+TEST(LawFitPlot, FollowsEquation7) {
+  const Json result = {
+      {"normal", {{{"delta", 0.1}, {"F", 0.08}, {"F_error", 0.01}}, {{"delta", 0.3}, {"F", 2.5}, {"F_error", 0.1}}}},
+      {"tangential", {{{"delta", 0.2}, {"k_t", 0.02}, {"k_t_error", 0.005}}}},
+      {"fit", {{"a", 73.669}, {"b", 2.799}, {"c", -0.035}, {"delta", 0.065}}}};
+  const Plot plot = json_plot("law-fit").make(result, "r.json");
+  ASSERT_EQ(plot.charts.size(), 2u);
+  const Curve& fit = plot.charts[0].curves[1];
+  for (std::size_t k = 0; k < fit.x.size(); ++k)
+    EXPECT_DOUBLE_EQ(fit.y[k], fit.x[k] < 0.065 ? 0 : 73.669 * std::pow(fit.x[k], 2.799) - 0.035);
+  EXPECT_EQ(plot.charts[1].curves[0].error, (std::vector{0.005}));
+}
+
+TEST(DataTable, ReadsNumbersTextAndQuotes) {
+  const DataTable t = parse_table("# machine: here\ncase, dt ,error\n\"a, \"\"b\"\"\",0.5,1e-3\r\nc,nan,\n", "t.csv");
+  ASSERT_EQ(t.columns.size(), 3u);
+  EXPECT_EQ(t.columns[0].text, (std::vector<std::string>{"a, \"b\"", "c"}));
+  EXPECT_FALSE(t.columns[0].numeric());
+  ASSERT_TRUE(t.find("dt")->numeric());
+  EXPECT_EQ(t.find("dt")->value[0], 0.5);
+  EXPECT_TRUE(std::isnan(t.find("dt")->value[1]));
+  EXPECT_TRUE(std::isnan(t.find("error")->value[1]));
+  EXPECT_EQ(t.find("nope"), nullptr);
+}
+
+TEST(DataTable, NamesTheLinesThatAreWrong) {
+  EXPECT_EQ(message_of([] { parse_table("a,b\n1\n2,3\n4,5,6\n", "t.csv"); }),
+            "t.csv:2: 1 fields: the header has 2\nt.csv:4: 3 fields: the header has 2");
+  EXPECT_THROW(parse_table("", "t.csv"), InputError);
+  EXPECT_THROW(parse_table("a,b\n", "t.csv"), InputError);
+}
+
+TEST(SeriesPlot, OnePanelAQuantity) {
+  const DataTable t = parse_table("t,Phi,L1,L2,kinetic_energy,mine\n0,.3,40,41,1e-3,5\n1,.4,39,40,0,6\n", "s.csv");
+  EXPECT_TRUE(table_plot("series").applies(t));
+  const Plot plot = table_plot("series").make(t);
+  EXPECT_TRUE(plot.share_x);
+  ASSERT_EQ(plot.charts.size(), 4u);  // Phi; L1 and L2; kinetic energy; the unknown column
+  EXPECT_EQ(plot.charts[1].curves.size(), 2u);
+  EXPECT_TRUE(plot.charts[2].y.log);
+  EXPECT_EQ(plot.charts[3].y.title, plain("mine"));
+  EXPECT_THROW(table_plot("series").make(parse_table("a,b\n1,2\n", "s.csv")), InputError);
+}
+
+TEST(BenchPlot, ErrorAgainstStepAndTimeByLabel) {
+  const DataTable t = parse_table(
+      "case,dt,cpu_seconds,error\npair,.1,1,1e-2\npair,.01,10,1e-4\nwall,.1,2,1e-1\nwall,.01,20,0\n", "b.csv");
+  EXPECT_TRUE(table_plot("bench").applies(t));
+  const Plot plot = table_plot("bench").make(t);
+  ASSERT_EQ(plot.charts.size(), 2u);
+  const auto& curves = plot.charts[0].curves;  // line and points a label
+  ASSERT_EQ(curves.size(), 4u);
+  EXPECT_EQ(curves[1].label, plain("pair"));
+  EXPECT_EQ(curves[1].x, (std::vector{0.01, 0.1}));
+  EXPECT_EQ(curves[1].y, (std::vector{1e-4, 1e-2}));
+  EXPECT_EQ(curves[3].x, (std::vector{0.1}));  // an error of zero has no place on a log axis
+  EXPECT_EQ(plot.charts[1].curves[1].x, (std::vector{1.0, 10.0}));
+  EXPECT_THROW(table_plot("bench").make(parse_table("error,b\n1,2\n", "b.csv")), InputError);
+}
+
+class PlotFiles : public ::testing::Test {
+ protected:
+  PlotFiles() {
+    std::string name = (std::filesystem::temp_directory_path() / "isostat-XXXXXX").string();
+    folder_ = ::mkdtemp(name.data());
+  }
+  ~PlotFiles() override { std::filesystem::remove_all(folder_); }
+  std::string file(const std::string& name, const std::string& content) const {
+    std::ofstream(folder_ + "/" + name) << content;
+    return folder_ + "/" + name;
+  }
+  std::string folder_;
+};
+
+TEST_F(PlotFiles, OneMeaningNeedsNoName) {
+  const std::string path = file("r.json", R"({"counts": {"x": [0.5, 0.5]}})");
+  EXPECT_EQ(read_plot(path, "").charts.size(), 1u);
+  EXPECT_EQ(read_plot(path, "coordination").charts.size(), 1u);
+}
+
+TEST_F(PlotFiles, FaultsSayWhatThereIs) {
+  const std::string two = file("r.json", R"({"counts": {"x": [1]}, "pores": {"list": [{"R": 1}]}})");
+  EXPECT_NE(message_of([&] { read_plot(two, ""); }).find("coordination, pores"), std::string::npos);
+  EXPECT_NE(message_of([&] { read_plot(two, "angle"); }).find("analyze --only forces"), std::string::npos);
+  EXPECT_NE(message_of([&] { read_plot(two, "series"); }).find("series"), std::string::npos);
+  EXPECT_NE(message_of([&] { read_plot(file("n.json", "{}"), ""); }).find("nothing to plot"), std::string::npos);
+  EXPECT_NE(message_of([&] { read_plot(file("x.json", "{\"a\": "), ""); }).find("no JSON"), std::string::npos);
+  EXPECT_THROW(read_plot(folder_ + "/missing.json", ""), InputError);
+  EXPECT_THROW(read_plot(file("x.txt", ""), ""), InputError);
+}
+
+}  // namespace
+}  // namespace isostat
