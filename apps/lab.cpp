@@ -1,6 +1,6 @@
 // isostat lab EXPERIMENT ...: few-body experiments against closed forms, and the speed of the step loop.
-#include <cstdio>
 #include <cmath>
+#include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -44,7 +44,8 @@ int throughput(int argc, char** argv) {
   if (!packing.cell) throw InputError(args.inputs()[0], 0, "cell", "", "lab throughput needs a periodic cell");
   const lab::Throughput t = lab::measure_throughput(std::move(packing), setup);
   Json stages;
-  for (std::size_t k = 0; k < StepTimes::kNames.size(); ++k) stages[std::string(StepTimes::kNames[k])] = t.times.seconds[k];
+  for (std::size_t k = 0; k < StepTimes::kNames.size(); ++k)
+    stages[std::string(StepTimes::kNames[k])] = t.times.seconds[k];
   write_json(args, {{"grain_steps_per_cpu_second", t.grain_steps_per_cpu_second},
                     {"grain_steps_per_wall_second", t.grain_steps_per_wall_second},
                     {"grains", t.grains},
@@ -179,15 +180,16 @@ std::string scan_table(const lab::ClusterSetup& setup) {
 }
 
 int cluster(int argc, char** argv) {
-  const Arguments args(argc, argv,
-                       {{"--approach", "fall|V", "speed of the fourth disk [V*]; fall: at rest, drawn in by the attraction"},
-                        {"--impact-parameter", "D", "[a] offset of its path from the axis of the base"},
-                        {"--step", "C", "time step c in dt = c sqrt(m/K) (default 0.01)"},
-                        {"--kappa", "K", "K_N a / F0 (default 1e5)"},
-                        {"--friction", "MU", "default 0.5"},
-                        {"--scan", "FILE.csv", "instead: a table over approach speeds and impact parameters"},
-                        kJsonOption},
-                       {"double-triangle", "The hyperstatic four-disk cluster of Gilabert 2007, Figs. 13 and 18."});
+  const Arguments args(
+      argc, argv,
+      {{"--approach", "fall|V", "speed of the fourth disk [V*]; fall: at rest, drawn in by the attraction"},
+       {"--impact-parameter", "D", "[a] offset of its path from the axis of the base"},
+       {"--step", "C", "time step c in dt = c sqrt(m/K) (default 0.01)"},
+       {"--kappa", "K", "K_N a / F0 (default 1e5)"},
+       {"--friction", "MU", "default 0.5"},
+       {"--scan", "FILE.csv", "instead: a table over approach speeds and impact parameters"},
+       kJsonOption},
+      {"double-triangle", "The hyperstatic four-disk cluster of Gilabert 2007, Figs. 13 and 18."});
   args.require_inputs(1, 1, "the cluster's name");
   if (args.inputs()[0] != "double-triangle")
     throw InputError("command line", 0, "lab cluster", args.inputs()[0], "one of double-triangle");
@@ -199,7 +201,8 @@ int cluster(int argc, char** argv) {
     throw InputError("command line", 0, "--step", *args.value("--step"), "in (0, 0.3]");
   if (!(setup.law.normal_stiffness >= 10))
     throw InputError("command line", 0, "--kappa", *args.value("--kappa"), "at least 10");
-  if (!(setup.law.friction > 0)) throw InputError("command line", 0, "--friction", *args.value("--friction"), "positive");
+  if (!(setup.law.friction > 0))
+    throw InputError("command line", 0, "--friction", *args.value("--friction"), "positive");
   setup.impact_parameter = args.number("--impact-parameter").value_or(0);
   if (!(std::abs(setup.impact_parameter) < 1.5))
     throw InputError("command line", 0, "--impact-parameter", *args.value("--impact-parameter"), "within 1.5 a");

@@ -84,7 +84,9 @@ class SeriesFile {
 class SampleRun {
  public:
   SampleRun(const PackJob& job, int sample)
-      : job_(job), sample_(sample), output_(numbered(job.output, sample, job.samples)),
+      : job_(job),
+        sample_(sample),
+        output_(numbered(job.output, sample, job.samples)),
         seed_(job.seed + static_cast<std::uint64_t>(sample)) {}
 
   // The exit code; adds to the timings.
@@ -115,7 +117,8 @@ class SampleRun {
     }
     if (outcome.interrupted) {
       write(state, partial());
-      say(lock, "interrupted at t = " + std::to_string(state.time) + " T0; the same command with --resume goes on from " + partial());
+      say(lock, "interrupted at t = " + std::to_string(state.time) +
+                    " T0; the same command with --resume goes on from " + partial());
       return exit_interrupted;
     }
     write(state, output_);
@@ -211,14 +214,15 @@ void print_scales(const PackJob& job, const State& state) {
     std::snprintf(buffer, sizeof buffer, "%.4g", *x);
     return std::string(buffer);
   };
-  std::cerr << "kappa " << text(s.kappa) << "  P* " << text(s.reduced_pressure) << "  h0/D0 " << text(s.overlap_over_range)
-            << "  e_N " << text(s.restitution) << "  V* " << text(s.velocity) << "  T0 " << text(s.time) << "  dt "
-            << text(s.time_step) << " T0  dt/dt_critical " << text(s.time_step / s.critical_time_step) << '\n';
+  std::cerr << "kappa " << text(s.kappa) << "  P* " << text(s.reduced_pressure) << "  h0/D0 "
+            << text(s.overlap_over_range) << "  e_N " << text(s.restitution) << "  V* " << text(s.velocity) << "  T0 "
+            << text(s.time) << "  dt " << text(s.time_step) << " T0  dt/dt_critical "
+            << text(s.time_step / s.critical_time_step) << '\n';
   if (job.scene.units) {
     const SiScales si = si_scales(*job.scene.units);
-    std::cerr << "SI: a " << text(si.length) << " m  F0 " << text(si.force) << " N  T0 " << text(si.time)
-              << " s  V* " << text(s.velocity ? std::optional(*s.velocity * si.velocity()) : std::nullopt)
-              << " m/s  F0/a " << text(si.pressure()) << " N/m\n";
+    std::cerr << "SI: a " << text(si.length) << " m  F0 " << text(si.force) << " N  T0 " << text(si.time) << " s  V* "
+              << text(s.velocity ? std::optional(*s.velocity * si.velocity()) : std::nullopt) << " m/s  F0/a "
+              << text(si.pressure()) << " N/m\n";
   }
 }
 
@@ -241,9 +245,8 @@ int run_samples(const PackJob& job, RunOutcome& total, std::int64_t& grain_steps
   std::vector<int> codes(static_cast<std::size_t>(job.samples), exit_done);
   Team team(std::min(job.threads, job.samples));
   team.run(job.samples, [&](int k) {
-    codes[static_cast<std::size_t>(k)] = InterruptGuard::requested()
-                                             ? exit_interrupted
-                                             : SampleRun(job, k).run(line, total, grain_steps, lock);
+    codes[static_cast<std::size_t>(k)] =
+        InterruptGuard::requested() ? exit_interrupted : SampleRun(job, k).run(line, total, grain_steps, lock);
   });
   return *std::max_element(codes.begin(), codes.end());
 }
@@ -273,7 +276,8 @@ int pack_command(int argc, char** argv) {
     throw InputError("command line", 0, "--max-time", *args.value("--max-time"), "must be positive [T0]");
   job.resume = args.has("--resume");
   job.scene = read_scene(job.scene_path, job.overrides);
-  job.seed = static_cast<std::uint64_t>(args.integer("--seed", 0, INT64_MAX).value_or(static_cast<long long>(job.scene.seed)));
+  job.seed =
+      static_cast<std::uint64_t>(args.integer("--seed", 0, INT64_MAX).value_or(static_cast<long long>(job.scene.seed)));
   if (std::filesystem::path(job.output).extension() != ".h5")
     throw InputError("command line", 0, "-o", job.output, "a state file's name ends in .h5");
   for (int k = 0; k < job.samples; ++k) require_writable(numbered(job.output, k, job.samples));

@@ -10,9 +10,7 @@
 namespace isostat {
 namespace {
 
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 std::string clock_text(double seconds) {
   if (!(seconds >= 0) || seconds > 99 * 3600.0) return "--:--";
@@ -40,7 +38,8 @@ ProgressLine::~ProgressLine() {
 // A timed stage: by proportion. Equilibrium: by the exponential decline of the criterion furthest from its tolerance.
 double ProgressLine::seconds_left(const Progress& p, const StageScene& stage) {
   const double t = now();
-  if (p.stage != shown_stage_) shown_stage_ = p.stage, first_at_ = t, first_time_ = p.time, first_log_ratio_ = std::log(p.last.ratio);
+  if (p.stage != shown_stage_)
+    shown_stage_ = p.stage, first_at_ = t, first_time_ = p.time, first_log_ratio_ = std::log(p.last.ratio);
   if (stage.until == "time") {
     const double done = p.time - first_time_;
     return done > 0 ? (t - first_at_) * (stage.time - done) / done : NAN;
@@ -48,7 +47,8 @@ double ProgressLine::seconds_left(const Progress& p, const StageScene& stage) {
   const double log_ratio = std::log(std::max(p.last.ratio, 1e-300));
   const double slope = (first_log_ratio_ - log_ratio) / (t - first_at_);
   const double left = slope > 0 ? std::max(0.0, log_ratio) / slope : NAN;
-  if (t - first_at_ > 2 * kTrendMemory) first_at_ = t - kTrendMemory, first_log_ratio_ = log_ratio + slope * kTrendMemory;
+  if (t - first_at_ > 2 * kTrendMemory)
+    first_at_ = t - kTrendMemory, first_log_ratio_ = log_ratio + slope * kTrendMemory;
   return left;
 }
 

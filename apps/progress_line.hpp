@@ -17,8 +17,8 @@ class ProgressLine {
   double seconds_left(const Progress& progress, const StageScene& stage);
   int stages_, samples_;
   bool terminal_;
-  double start_, last_shown_ = -1;                    // [s]
-  double first_log_ratio_ = 0, first_at_ = -1;        // where the decline of the last criterion is measured from
+  double start_, last_shown_ = -1;              // [s]
+  double first_log_ratio_ = 0, first_at_ = -1;  // where the decline of the last criterion is measured from
   double first_time_ = 0;
   int shown_stage_ = -1;
   std::mutex lock_;

@@ -4,10 +4,10 @@
 
 namespace isostat {
 
-struct Energies {               // all [F0 a]
-  double kinetic = 0;           // peculiar translation and rotation, full-step velocities
-  double elastic = 0;           // K_N h^2/2 + T^2/(2 K_T) + M^2/(2 K_r)
-  double adhesive = 0;          // -F0 D0/2 + F0 h in contact, -F0 (D0 - h)^2/(2 D0) across a gap
+struct Energies {       // all [F0 a]
+  double kinetic = 0;   // peculiar translation and rotation, full-step velocities
+  double elastic = 0;   // K_N h^2/2 + T^2/(2 K_T) + M^2/(2 K_r)
+  double adhesive = 0;  // -F0 D0/2 + F0 h in contact, -F0 (D0 - h)^2/(2 D0) across a gap
   EnergyLedger ledger;
   // Constant in an exact integration: stored + dissipated - put in. The error falls with dt^2.
   double total() const {

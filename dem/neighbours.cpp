@@ -10,10 +10,10 @@ namespace isostat {
 namespace {
 
 // Tuning, in the regime of METHODS.md "The disk engine"; none of these enters a result.
-constexpr double kOuterSkin = 0.35;         // [mean diameter]
-constexpr double kInnerSteps = 100;         // steps that the inner skin should last
-constexpr double kSmallestInnerSkin = 5e-4; // [smallest diameter]
-constexpr double kLargestInnerSkin = 0.3;   // [outer skin]
+constexpr double kOuterSkin = 0.35;          // [mean diameter]
+constexpr double kInnerSteps = 100;          // steps that the inner skin should last
+constexpr double kSmallestInnerSkin = 5e-4;  // [smallest diameter]
+constexpr double kLargestInnerSkin = 0.3;    // [outer skin]
 constexpr std::size_t kBodiesPerChunk = 4096;
 constexpr int kMostChunks = 64;
 
@@ -103,7 +103,8 @@ void NeighbourLists::sort_bodies(BodiesStore& bodies, const PeriodicCell<2>& cel
     double* row = bodies.row(k);
     for (int a = 0; a < 2; ++a) {
       const double cells = std::floor(row[a] / cell.length[a]);
-      if (!(std::abs(cells) < 1e6)) throw std::runtime_error("grain " + std::to_string(bodies.id[k]) + " has left the cell");
+      if (!(std::abs(cells) < 1e6))
+        throw std::runtime_error("grain " + std::to_string(bodies.id[k]) + " has left the cell");
       row[a] -= cells * cell.length[a];
       wraps[k][static_cast<std::size_t>(a)] = static_cast<int>(cells);
     }
@@ -186,7 +187,7 @@ std::size_t NeighbourLists::segment_of(std::int32_t i, std::int32_t j, std::uint
   const std::size_t images = shift == kNoImage ? 0 : 1;
   if (chunks_ == 1) return images;
   const int ci = chunk_of(i), cj = chunk_of(j);
-  const int group = ci == cj ? ci
+  const int group = ci == cj                   ? ci
                     : cj == (ci + 1) % chunks_ ? chunks_ + ci
                     : ci == (cj + 1) % chunks_ ? chunks_ + cj
                                                : 2 * chunks_;
@@ -267,8 +268,8 @@ void NeighbourLists::filter_inner(const BodiesStore& bodies, const std::vector<P
 }
 
 PairArrays NeighbourLists::arrays() {
-  return {i_.data(), j_.data(), shift_.data(), damping_coefficient_.data(), radius_sum_.data(), tangential_.data(),
-          moment_.data()};
+  return {i_.data(),          j_.data(),          shift_.data(), damping_coefficient_.data(),
+          radius_sum_.data(), tangential_.data(), moment_.data()};
 }
 
 std::vector<PairMemory> NeighbourLists::histories() const {

@@ -18,7 +18,9 @@
 namespace isostat {
 
 // Image codes: (s1 + 1) + 3 (s2 + 1); 4 is the pair as it stands.
-constexpr std::uint8_t image_code(const ImageShift<2>& s) { return static_cast<std::uint8_t>(s[0] + 1 + 3 * (s[1] + 1)); }
+constexpr std::uint8_t image_code(const ImageShift<2>& s) {
+  return static_cast<std::uint8_t>(s[0] + 1 + 3 * (s[1] + 1));
+}
 constexpr ImageShift<2> image_shift(std::uint8_t code) { return {code % 3 - 1, code / 3 - 1}; }
 inline constexpr std::uint8_t kNoImage = 4;
 

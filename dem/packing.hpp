@@ -24,13 +24,13 @@ using Tangential = std::conditional_t<D == 2, double, Vec3>;  // component along
 // Arrays over bodies, all of one length, in storage order (the solver may permute bodies; `id` names them).
 template <int D>
 struct Bodies {
-  std::vector<std::int64_t> id;      // distinct, any integers
-  std::vector<Vec<D>> position;      // [a] may lie outside the cell
-  std::vector<Vec<D>> velocity;      // [a/T0] peculiar: relative to the affine flow of the cell
-  std::vector<Spin<D>> spin;         // [1/T0] angular velocity
-  std::vector<double> radius;        // [a]
-  std::vector<double> mass;          // [m]
-  std::vector<double> inertia;       // [m a^2]
+  std::vector<std::int64_t> id;  // distinct, any integers
+  std::vector<Vec<D>> position;  // [a] may lie outside the cell
+  std::vector<Vec<D>> velocity;  // [a/T0] peculiar: relative to the affine flow of the cell
+  std::vector<Spin<D>> spin;     // [1/T0] angular velocity
+  std::vector<double> radius;    // [a]
+  std::vector<double> mass;      // [m]
+  std::vector<double> inertia;   // [m a^2]
   std::size_t size() const { return id.size(); }
   void resize(std::size_t n) {
     id.resize(n), position.resize(n), velocity.resize(n), spin.resize(n);
@@ -60,10 +60,10 @@ struct Link {
   std::int32_t i = 0, j = 0;
   ImageShift<D> shift{};
   LinkKind kind = LinkKind::closed;
-  double gap = 0;               // [a] h; h < 0 is overlap
-  double normal_force = 0;      // [F0] N > 0 repulsive
+  double gap = 0;                    // [a] h; h < 0 is overlap
+  double normal_force = 0;           // [F0] N > 0 repulsive
   Tangential<D> tangential_force{};  // [F0]
-  Spin<D> moment{};             // [F0 a] rolling moment M on j
+  Spin<D> moment{};                  // [F0 a] rolling moment M on j
 };
 
 template <int D>

@@ -111,8 +111,11 @@ constexpr std::int64_t kGrainStepsPerSlice = 10'000'000;  // about a tenth of a 
 class StageRun {
  public:
   StageRun(State& state, const SolverOptions& options, const RunHooks& hooks)
-      : s_(state), stage_(state.scene.stages[static_cast<std::size_t>(state.progress.stage)]), hooks_(hooks),
-        solver_(state, cell_control(state, stage_), options), interval_(check_interval(state.time_step)),
+      : s_(state),
+        stage_(state.scene.stages[static_cast<std::size_t>(state.progress.stage)]),
+        hooks_(hooks),
+        solver_(state, cell_control(state, stage_), options),
+        interval_(check_interval(state.time_step)),
         slice_(std::max<std::int64_t>(1, kGrainStepsPerSlice / static_cast<std::int64_t>(state.packing.bodies.size()))),
         last_checkpoint_(wall_seconds()) {
     if (s_.progress.drag_on) solver_.set_drag(s_.scene.finish.drag);
@@ -212,8 +215,8 @@ class StageRun {
       return true;
     }
     if (stage_.until != "time" && s_.time - s_.progress.start_time >= stage_.max_time) {
-      outcome.reason = "not in equilibrium after stage.max_time = " + std::to_string(stage_.max_time) + " T0: " +
-                       missing + "; raise stage.max_time or set finish.method = \"drag\"";
+      outcome.reason = "not in equilibrium after stage.max_time = " + std::to_string(stage_.max_time) +
+                       " T0: " + missing + "; raise stage.max_time or set finish.method = \"drag\"";
       return true;
     }
     return false;

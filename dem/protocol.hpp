@@ -14,9 +14,9 @@ namespace isostat {
 // What an observer may see while a stage runs.
 struct Progress {
   std::int32_t stage = 0;
-  double time = 0;             // [T0]
+  double time = 0;  // [T0]
   double solid_fraction = 0;
-  WorstCriterion last;         // the equilibrium criterion furthest from being met
+  WorstCriterion last;  // the equilibrium criterion furthest from being met
   const Certificate* certificate = nullptr;
 };
 
@@ -34,9 +34,9 @@ struct RunHooks {
 
 struct StageOutcome {
   std::int32_t stage = 0;
-  bool met = false;        // its own end was reached
-  double time = 0;         // [T0] at the end
-  std::string reason;      // what ended it, or what is missing and the key to turn
+  bool met = false;    // its own end was reached
+  double time = 0;     // [T0] at the end
+  std::string reason;  // what ended it, or what is missing and the key to turn
 };
 
 struct RunOutcome {

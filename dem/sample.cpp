@@ -14,8 +14,7 @@ namespace {
 // Random sequential placement, largest first, with a grid of cells of the largest diameter.
 class Placement {
  public:
-  Placement(const PeriodicCell<2>& cell, double largest_diameter, double gap)
-      : cell_(cell), gap_(gap) {
+  Placement(const PeriodicCell<2>& cell, double largest_diameter, double gap) : cell_(cell), gap_(gap) {
     for (int k = 0; k < 2; ++k) n_[k] = std::max(1, static_cast<int>(cell.length[k] / (largest_diameter + gap)));
     members_.resize(static_cast<std::size_t>(n_[0] * n_[1]));
   }
@@ -33,7 +32,9 @@ class Placement {
   void add(const Vec2& r, std::size_t k) { members_[index(column(r, 0), column(r, 1))].push_back(k); }
 
  private:
-  int column(const Vec2& r, int k) const { return std::min(n_[k] - 1, static_cast<int>(r[k] / cell_.length[k] * n_[k])); }
+  int column(const Vec2& r, int k) const {
+    return std::min(n_[k] - 1, static_cast<int>(r[k] / cell_.length[k] * n_[k]));
+  }
   std::size_t index(int x, int y) const { return static_cast<std::size_t>(y * n_[0] + x); }
   PeriodicCell<2> cell_;
   double gap_;
@@ -81,7 +82,8 @@ State initial_state(const Scene& scene, std::uint64_t seed) {
   b.resize(n);
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t p, std::size_t q) { return diameters[p] > diameters[q]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t p, std::size_t q) { return diameters[p] > diameters[q]; });
   Placement placement(cell, diameters[order[0]], state.law.attraction_range);
   for (std::size_t k : order) {
     b.id[k] = static_cast<std::int64_t>(k);

@@ -47,11 +47,21 @@ std::string series_row(const State& s, bool with_energies) {
   for (const Link<2>& l : p.links)
     interactions += s.law.attraction > 0 || l.normal_force > kLoadTolerance * s.certificate.force_scale;
 
-  std::vector<double> values = {s.time, area / p.cell->measure(), p.cell->length[0], p.cell->length[1], stress.xx,
-                                stress.yy, s.cell_motion.strain_rate[0], s.cell_motion.strain_rate[1], e.kinetic,
+  std::vector<double> values = {s.time,
+                                area / p.cell->measure(),
+                                p.cell->length[0],
+                                p.cell->length[1],
+                                stress.xx,
+                                stress.yy,
+                                s.cell_motion.strain_rate[0],
+                                s.cell_motion.strain_rate[1],
+                                e.kinetic,
                                 2 * static_cast<double>(interactions) / static_cast<double>(p.bodies.size()),
-                                static_cast<double>(clusters(p)), s.certificate.max_force, s.certificate.max_moment,
-                                s.certificate.pressure_error, s.certificate.kinetic_energy_per_grain};
+                                static_cast<double>(clusters(p)),
+                                s.certificate.max_force,
+                                s.certificate.max_moment,
+                                s.certificate.pressure_error,
+                                s.certificate.kinetic_energy_per_grain};
   if (with_energies)
     for (double x : {e.kinetic, e.elastic, e.adhesive, e.ledger.viscous, e.ledger.sliding, e.ledger.rolling,
                      e.ledger.drag, e.ledger.cell_work, e.total()})

@@ -11,8 +11,8 @@
 namespace isostat {
 namespace {
 
-constexpr double kMostMove = 0.1;      // [smallest diameter] in one step: beyond, the run has blown up
-constexpr double kMostOverlap = 0.5;   // [R_i + R_j]
+constexpr double kMostMove = 0.1;         // [smallest diameter] in one step: beyond, the run has blown up
+constexpr double kMostOverlap = 0.5;      // [R_i + R_j]
 constexpr std::int64_t kTimedEvery = 64;  // reading the clock at every stage of every step would cost a few per cent
 
 using Clock = std::chrono::steady_clock;
@@ -180,16 +180,18 @@ void Solver::check_sanity() const {
   }
   for (int a = 0; a < 2; ++a)
     if (!(std::abs(cell_motion_.strain_rate[a]) * dt_ <= kMostMove) || !(cell_.length[a] > 0))
-      throw RunError(step_, -1, "the cell collapses, L" + std::to_string(a + 1) + " = " + std::to_string(cell_.length[a]),
+      throw RunError(step_, -1,
+                     "the cell collapses, L" + std::to_string(a + 1) + " = " + std::to_string(cell_.length[a]),
                      "set stage.max_strain_rate, raise cell.inertia or lower stage.pressure");
   lists_.for_each([&](std::int32_t i, std::int32_t j, std::uint8_t shift, double, double) {
     const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
     const double sum = bodies_.constants[a].radius + bodies_.constants[b].radius;
     const double distance = norm(bodies_.position(b) + cell_.offset(image_shift(shift)) - bodies_.position(a));
     if (distance < (1 - kMostOverlap) * sum)
-      throw RunError(step_, bodies_.id[a],
-                     "it overlaps grain " + std::to_string(bodies_.id[b]) + " by " + std::to_string(sum - distance) + " a",
-                     "raise law.normal_stiffness or lower stage.pressure");
+      throw RunError(
+          step_, bodies_.id[a],
+          "it overlaps grain " + std::to_string(bodies_.id[b]) + " by " + std::to_string(sum - distance) + " a",
+          "raise law.normal_stiffness or lower stage.pressure");
   });
 }
 

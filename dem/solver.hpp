@@ -78,7 +78,7 @@ class Solver {
   Team team_;
   BodiesStore bodies_;
   NeighbourLists lists_;
-  std::vector<MotionTally> motion_tallies_;   // by chunk
+  std::vector<MotionTally> motion_tallies_;    // by chunk
   std::vector<PairForceTally> force_tallies_;  // by group of a phase
   MotionTally motion_tally_;
   PairForceTally force_tally_;

@@ -28,11 +28,11 @@ struct PairMemory {
 // at which the two nested neighbour lists were built, and how much of their skins is used up. Empty for packings that
 // no solver has touched.
 struct SolverMemory {
-  std::vector<Vec2> half_velocity;   // [a/T0] at time - dt/2
-  std::vector<double> half_spin;     // [1/T0]
-  std::vector<Vec2> force;           // [F0] total, viscous part included
-  std::vector<double> torque;        // [F0 a]
-  std::vector<PairMemory> pairs;     // pairs with history, any order
+  std::vector<Vec2> half_velocity;                   // [a/T0] at time - dt/2
+  std::vector<double> half_spin;                     // [1/T0]
+  std::vector<Vec2> force;                           // [F0] total, viscous part included
+  std::vector<double> torque;                        // [F0 a]
+  std::vector<PairMemory> pairs;                     // pairs with history, any order
   std::vector<Vec2> outer_position, inner_position;  // [a] at the last rebuild of each list
   Vec2 outer_length{}, inner_length{};               // [a] cell edges then
   double outer_skin = 0, inner_skin = 0;             // [a]
@@ -58,33 +58,33 @@ struct StageProgress {
 
 // The three criteria of Gilabert 2007, Sec. II.D, evaluated from static forces.
 struct Certificate {
-  double max_force = 0;                   // [F1]
-  double max_moment = 0;                  // [F1 a]
-  double pressure_error = 0;              // [F1/a] largest over the controlled directions; 0 in a fixed cell
-  double kinetic_energy_per_grain = 0;    // [F1 a]
-  double force_scale = 1;                 // F1 = max(F0, a P) [F0]
+  double max_force = 0;                 // [F1]
+  double max_moment = 0;                // [F1 a]
+  double pressure_error = 0;            // [F1/a] largest over the controlled directions; 0 in a fixed cell
+  double kinetic_energy_per_grain = 0;  // [F1 a]
+  double force_scale = 1;               // F1 = max(F0, a P) [F0]
   double tolerance_force = 1e-4, tolerance_pressure = 1e-4, tolerance_kinetic = 5e-8;
-  std::int64_t sliding = 0;               // contacts with |T| >= (1 - 1e-6) mu N_e
-  std::int64_t rolling_yielded = 0;       // contacts with |M| >= (1 - 1e-6) mu_r N_e
-  double smallest_margin = 1;             // min over contacts of 1 - |T| / (mu N_e), and the same for rolling
+  std::int64_t sliding = 0;          // contacts with |T| >= (1 - 1e-6) mu N_e
+  std::int64_t rolling_yielded = 0;  // contacts with |M| >= (1 - 1e-6) mu_r N_e
+  double smallest_margin = 1;        // min over contacts of 1 - |T| / (mu N_e), and the same for rolling
   bool pressure_controlled = false;
   bool equilibrated = false;
-  std::string finishing = "none";         // which finishing method acted, if any
+  std::string finishing = "none";  // which finishing method acted, if any
 };
 
 struct State {
-  Packing<2> packing;               // positions, velocities and spins at `time`
+  Packing<2> packing;  // positions, velocities and spins at `time`
   LawParameters law;
-  double time = 0;                  // [T0]
+  double time = 0;  // [T0]
   std::int64_t step = 0;
-  double time_step = 0;             // dt [T0]
+  double time_step = 0;  // dt [T0]
   CellMotion cell_motion;
   std::optional<double> imposed_pressure;  // [F0/a] of the current or last stage; none: fixed cell
   SolverMemory memory;
   StageProgress progress;
   EnergyLedger ledger;
   Certificate certificate;
-  Scene scene;                      // resolved scene: what was asked, --set applied
+  Scene scene;  // resolved scene: what was asked, --set applied
   std::uint64_t seed = 1;
   std::uint64_t random_counter = 0;  // draws made so far from the counter-based generator
 };

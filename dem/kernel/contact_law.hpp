@@ -26,18 +26,18 @@ struct Catalogue {
 };
 
 using namespace law;
-using Supported = Catalogue<                                                                 //
-    ContactLaw<AdhesionNone, DampingCritical, FrictionNone, RollingNone>,                    //
-    ContactLaw<AdhesionNone, DampingCritical, FrictionCoulomb, RollingNone>,                 //
-    ContactLaw<AdhesionNone, DampingCritical, FrictionCoulomb, RollingElastoplastic>,        //
-    ContactLaw<AdhesionLinear, DampingCritical, FrictionNone, RollingNone>,                  //
-    ContactLaw<AdhesionLinear, DampingCritical, FrictionCoulomb, RollingNone>,               //
-    ContactLaw<AdhesionLinear, DampingCritical, FrictionCoulomb, RollingElastoplastic>,      //
-    ContactLaw<AdhesionNone, DampingNone, FrictionNone, RollingNone>,                        //
-    ContactLaw<AdhesionNone, DampingNone, FrictionCoulomb, RollingNone>,                     //
-    ContactLaw<AdhesionNone, DampingNone, FrictionCoulomb, RollingElastoplastic>,            //
-    ContactLaw<AdhesionLinear, DampingNone, FrictionNone, RollingNone>,                      //
-    ContactLaw<AdhesionLinear, DampingNone, FrictionCoulomb, RollingNone>,                   //
+using Supported = Catalogue<                                                             //
+    ContactLaw<AdhesionNone, DampingCritical, FrictionNone, RollingNone>,                //
+    ContactLaw<AdhesionNone, DampingCritical, FrictionCoulomb, RollingNone>,             //
+    ContactLaw<AdhesionNone, DampingCritical, FrictionCoulomb, RollingElastoplastic>,    //
+    ContactLaw<AdhesionLinear, DampingCritical, FrictionNone, RollingNone>,              //
+    ContactLaw<AdhesionLinear, DampingCritical, FrictionCoulomb, RollingNone>,           //
+    ContactLaw<AdhesionLinear, DampingCritical, FrictionCoulomb, RollingElastoplastic>,  //
+    ContactLaw<AdhesionNone, DampingNone, FrictionNone, RollingNone>,                    //
+    ContactLaw<AdhesionNone, DampingNone, FrictionCoulomb, RollingNone>,                 //
+    ContactLaw<AdhesionNone, DampingNone, FrictionCoulomb, RollingElastoplastic>,        //
+    ContactLaw<AdhesionLinear, DampingNone, FrictionNone, RollingNone>,                  //
+    ContactLaw<AdhesionLinear, DampingNone, FrictionCoulomb, RollingNone>,               //
     ContactLaw<AdhesionLinear, DampingNone, FrictionCoulomb, RollingElastoplastic>>;
 
 // By tally: nothing, stress, energy.

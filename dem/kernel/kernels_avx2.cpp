@@ -3,7 +3,7 @@
 namespace isostat::kernel {
 
 const KernelTable& avx2_kernels() {
-  static constexpr KernelTable table = kernel_table<Native>(Supported{});
+  static constexpr KernelTable table = kernel_table<Twin<Native>>(Supported{});
   return table;
 }
 

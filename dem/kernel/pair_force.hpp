@@ -10,24 +10,24 @@
 
 namespace isostat {
 
-enum class Isa { scalar, avx2, avx512 };  // widths 1, 4 and 8
+enum class Isa { scalar, avx2, avx512 };  // batches of 1, 8 and 16 pairs
 Isa best_isa();                           // of this machine; the environment variable ISOSTAT_ISA may ask for less
 std::string_view name(Isa isa);
 
 // What a kernel sums up beside the forces. A fixed cell measures no stress; the energy ledger is paid for on request.
 enum class Tally { nothing, stress, energy };
 
-// Pairs in structure-of-arrays form. Segments begin and end at multiples of kPairBatch; the rest is padded with a
-// pair of two far bodies.
-inline constexpr std::size_t kPairBatch = 8;
+// Pairs in structure-of-arrays form. Groups begin and end at multiples of kPairBatch, the widest batch of any kernel
+// (two AVX-512 vectors); the rest is padded with a pair of two far bodies.
+inline constexpr std::size_t kPairBatch = 16;
 struct PairArrays {
-  const std::uint32_t* i = nullptr;        // offset of the body's row: kernel::RowOffset
+  const std::uint32_t* i = nullptr;  // offset of the body's row: kernel::RowOffset
   const std::uint32_t* j = nullptr;
-  const std::uint8_t* shift = nullptr;     // image code 0..8 -> offset table; read in image segments only
-  const double* damping = nullptr;         // eta [F0 T0/a]
-  const double* radius_sum = nullptr;      // R_i + R_j [a]
-  double* tangential = nullptr;            // T [F0], history
-  double* moment = nullptr;                // M [F0 a], history
+  const std::uint8_t* shift = nullptr;  // image code 0..8 -> offset table; read in image segments only
+  const double* damping = nullptr;      // eta [F0 T0/a]
+  const double* radius_sum = nullptr;   // R_i + R_j [a]
+  double* tangential = nullptr;         // T [F0], history
+  double* moment = nullptr;             // M [F0 a], history
 };
 
 struct PairForceInput {
@@ -35,7 +35,7 @@ struct PairForceInput {
   double* loads = nullptr;       // accumulated
   PairArrays pairs;
   std::size_t begin = 0, end = 0;
-  bool images = false;           // the segment's pairs cross the edge of the cell
+  bool images = false;  // the segment's pairs cross the edge of the cell
   LawParameters law;
   double time_step = 0;          // [T0]
   double flow_half[2] = {0, 0};  // Ldot_a / L_a at the half step [1/T0]; the affine part of a velocity is flow * r

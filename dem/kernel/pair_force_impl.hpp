@@ -15,7 +15,9 @@ ISOSTAT_INLINE V load(const double* p) {
 
 template <class V>
 ISOSTAT_INLINE V image_offset(const PairForceInput& in, std::size_t k, int axis) {
-  return V([&](auto lane) { return in.offsets[in.pairs.shift[k + lane]][axis]; });
+  alignas(64) double offset[V::size()];
+  for (std::size_t lane = 0; lane < V::size(); ++lane) offset[lane] = in.offsets[in.pairs.shift[k + lane]][axis];
+  return load<V>(offset);
 }
 
 // Part of the step that a contact formed within it has existed for: the gap was positive a step ago. Without it a new
@@ -25,7 +27,7 @@ ISOSTAT_INLINE V contact_time(V gap, V normal_displacement) {
   V fraction(1.0);
   const auto formed = gap < V(0.0) && gap - normal_displacement > V(0.0);
   if (any_of(formed)) [[unlikely]]
-    where(formed, fraction) = gap / normal_displacement;
+    return select(formed, gap / normal_displacement, fraction);
   return fraction;
 }
 
@@ -56,8 +58,7 @@ PairForceTally pair_forces(const PairForceInput& input) {
     if constexpr (Law::Adhesion::acts) normal += Law::Adhesion::force(law, f.gap);
     if constexpr (Law::Damping::acts) {
       const V receding = mul_add<V>(f.nx, d.p, f.ny * d.q);
-      V damping = Law::Damping::force(load<V>(in.pairs.damping + k), receding);
-      where(!contact, damping) = V(0.0);
+      const V damping = select(contact, Law::Damping::force(load<V>(in.pairs.damping + k), receding), V(0.0));
       normal += damping;
       if constexpr (kTally == Tally::energy) viscous -= damping * receding * dt;
     }

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <experimental/simd>
 
+#include "dem/kernel/twin.hpp"
 #include "dem/link.hpp"
 #if defined(__AVX2__)
 #include <immintrin.h>
@@ -27,7 +28,8 @@ inline constexpr int kRowWidth = 8, kLoadWidth = 4;  // doubles
 using RowOffset = std::uint32_t;
 ISOSTAT_INLINE const double* row_at(const double* rows, RowOffset o) { return rows + std::size_t{o}; }
 ISOSTAT_INLINE double* load_at(double* loads, RowOffset o) {
-  return reinterpret_cast<double*>(reinterpret_cast<char*>(loads) + std::size_t{o} * (kLoadWidth * sizeof(double) / kRowWidth));
+  return reinterpret_cast<double*>(reinterpret_cast<char*>(loads) +
+                                   std::size_t{o} * (kLoadWidth * sizeof(double) / kRowWidth));
 }
 
 template <class V>
@@ -38,15 +40,23 @@ struct PairDifference {
 namespace stdx = std::experimental;
 using Scalar = stdx::simd<double, stdx::simd_abi::scalar>;
 
+// x where the mask holds, else y.
+template <class Abi>
+ISOSTAT_INLINE stdx::simd<double, Abi> select(const stdx::simd_mask<double, Abi>& mask,
+                                              const stdx::simd<double, Abi>& x, stdx::simd<double, Abi> y) {
+  where(mask, y) = x;
+  return y;
+}
+
 ISOSTAT_INLINE PairDifference<Scalar> load_differences(const double* rows, const RowOffset* i, const RowOffset* j,
-                                               Scalar) {
+                                                       Scalar) {
   const double* a = row_at(rows, *i);
   const double* b = row_at(rows, *j);
   return {b[0] - a[0], b[1] - a[1], b[2] - a[2], b[3] - a[3], b[4] + a[4], b[5] - a[5], b[6] - a[6], b[7] - a[7]};
 }
 
 ISOSTAT_INLINE void add_loads(double* loads, const RowOffset* i, const RowOffset* j, Scalar fx, Scalar fy, Scalar a,
-                      Scalar b) {
+                              Scalar b) {
   double* on_i = load_at(loads, *i);
   double* on_j = load_at(loads, *j);
   on_i[0] -= fx[0], on_i[1] -= fy[0], on_i[2] += a[0], on_i[3] -= b[0];
@@ -67,7 +77,7 @@ ISOSTAT_INLINE void add_load_pair(double* loads, RowOffset i, RowOffset j, __m25
 using Native = stdx::simd<double, stdx::simd_abi::__avx512>;
 
 ISOSTAT_INLINE PairDifference<Native> load_differences(const double* rows, const RowOffset* i, const RowOffset* j,
-                                               Native) {
+                                                       Native) {
   const __m512d sign = _mm512_setr_pd(-1, -1, -1, -1, 1, -1, -1, -1);
   __m512d r[8];
   for (int k = 0; k < 8; ++k) {
@@ -92,7 +102,7 @@ ISOSTAT_INLINE PairDifference<Native> load_differences(const double* rows, const
 }
 
 ISOSTAT_INLINE void add_loads(double* loads, const RowOffset* i, const RowOffset* j, Native fx, Native fy, Native a,
-                      Native b) {
+                              Native b) {
   const __m512d xy_lo = _mm512_unpacklo_pd(static_cast<__m512d>(fx), static_cast<__m512d>(fy));
   const __m512d xy_hi = _mm512_unpackhi_pd(static_cast<__m512d>(fx), static_cast<__m512d>(fy));
   const __m512d ab_lo = _mm512_unpacklo_pd(static_cast<__m512d>(a), static_cast<__m512d>(b));
@@ -125,7 +135,7 @@ ISOSTAT_INLINE FourColumns transpose(const __m256d r[4]) {
 }
 
 ISOSTAT_INLINE PairDifference<Native> load_differences(const double* rows, const RowOffset* i, const RowOffset* j,
-                                               Native) {
+                                                       Native) {
   const __m256d sign = _mm256_setr_pd(1, -1, -1, -1);
   __m256d lo[4], hi[4];
   for (int k = 0; k < 4; ++k) {
@@ -139,7 +149,7 @@ ISOSTAT_INLINE PairDifference<Native> load_differences(const double* rows, const
 }
 
 ISOSTAT_INLINE void add_loads(double* loads, const RowOffset* i, const RowOffset* j, Native fx, Native fy, Native a,
-                      Native b) {
+                              Native b) {
   const __m256d columns[4] = {static_cast<__m256d>(fx), static_cast<__m256d>(fy), static_cast<__m256d>(a),
                               static_cast<__m256d>(b)};
   const FourColumns f = transpose(columns);
@@ -152,6 +162,21 @@ ISOSTAT_INLINE void add_loads(double* loads, const RowOffset* i, const RowOffset
 using Native = Scalar;
 #endif
 
+// Two batches side by side.
+template <class V>
+ISOSTAT_INLINE PairDifference<Twin<V>> load_differences(const double* rows, const RowOffset* i, const RowOffset* j,
+                                                        Twin<V>) {
+  const PairDifference<V> a = load_differences(rows, i, j, V());
+  const PairDifference<V> b = load_differences(rows, i + V::size(), j + V::size(), V());
+  return {{a.x, b.x},       {a.y, b.y}, {a.u, b.u}, {a.v, b.v}, {a.surface_sum, b.surface_sum},
+          {a.spin, b.spin}, {a.p, b.p}, {a.q, b.q}};
+}
+template <class V>
+ISOSTAT_INLINE void add_loads(double* loads, const RowOffset* i, const RowOffset* j, const Twin<V>& fx,
+                              const Twin<V>& fy, const Twin<V>& a, const Twin<V>& b) {
+  add_loads(loads, i, j, fx.a, fy.a, a.a, b.a);
+  add_loads(loads, i + V::size(), j + V::size(), fx.b, fy.b, a.b, b.b);
+}
 }  // namespace isostat::kernel
 
 #if defined(__AVX512F__)

@@ -9,9 +9,9 @@
 namespace isostat::lab {
 namespace {
 
-constexpr double kResidual = 1e-6;        // [F0]
-constexpr double kRestEnergy = 1e-12;     // [F0 a] per grain
-constexpr double kJustInside = 1e-3;      // [D0] how far inside the range of attraction the second gap is
+constexpr double kResidual = 1e-6;     // [F0]
+constexpr double kRestEnergy = 1e-12;  // [F0 a] per grain
+constexpr double kJustInside = 1e-3;   // [D0] how far inside the range of attraction the second gap is
 
 }  // namespace
 

@@ -11,19 +11,19 @@
 namespace isostat::lab {
 
 struct ClusterSetup {
-  LawScene law;                         // default: kappa 1e5, mu .5, zeta .8, K_T = K_N, no rolling
+  LawScene law;  // default: kappa 1e5, mu .5, zeta .8, K_T = K_N, no rolling
   double step_fraction = 0.01;
-  std::optional<double> approach;       // [V*] speed of disk 3 towards the base; none: it rests, touching disk 0 with
-                                        // h = -h0, at a gap just inside D0 of disk 1
-  double impact_parameter = 0;          // [a] offset of disk 3's path from the axis of the base, towards disk 1
-  double max_time = 2000;               // [T0]
+  std::optional<double> approach;  // [V*] speed of disk 3 towards the base; none: it rests, touching disk 0 with
+                                   // h = -h0, at a gap just inside D0 of disk 1
+  double impact_parameter = 0;     // [a] offset of disk 3's path from the axis of the base, towards disk 1
+  double max_time = 2000;          // [T0]
 };
 ClusterSetup default_cluster_setup();
 
 struct ClusterResult {
-  State state;             // links: the contacts
-  bool at_rest = false;    // residual forces below 1e-6 F0 and kinetic energy below 1e-12 F0 a
-  double residual = 0;     // [F0]
+  State state;           // links: the contacts
+  bool at_rest = false;  // residual forces below 1e-6 F0 and kinetic energy below 1e-12 F0 a
+  double residual = 0;   // [F0]
   std::size_t contacts = 0;
   // In the closed double triangle; NaN otherwise.
   double outer_normal = 0;      // [F0] mean N of 0-3 and 1-3

@@ -46,6 +46,10 @@ class HeldPair {
     rows_.assign(4 * kernel::kRowWidth, 0.0);
     loads_.assign(4 * kernel::kLoadWidth, 0.0);
     rows_[3 * kernel::kRowWidth] = 1e6;
+    std::fill(std::begin(i_), std::end(i_), 2 * kernel::kRowWidth);  // the padding pair
+    std::fill(std::begin(j_), std::end(j_), 3 * kernel::kRowWidth);
+    std::fill(std::begin(shift_), std::end(shift_), kNoImage);
+    std::fill(std::begin(sum_), std::end(sum_), 1.0);
     i_[0] = 0, j_[0] = kernel::kRowWidth;
     set_gap(-overlap);
   }
@@ -59,7 +63,8 @@ class HeldPair {
     one[3] = tangential + 0.5 * spin * one[0], one[4] = 0.5 * spin, one[5] = spin;  // cancels the slip of the spin
     std::fill(loads_.begin(), loads_.end(), 0.0);
     PairForceInput in;
-    in.rows = rows_.data(), in.loads = loads_.data(), in.law = law_, in.time_step = 1, in.begin = 0, in.end = kPairBatch;
+    in.rows = rows_.data(), in.loads = loads_.data(), in.law = law_, in.time_step = 1, in.begin = 0,
+    in.end = kPairBatch;
     in.pairs = {i_, j_, shift_, damping_, sum_, tangential_, moment_};
     kernel_(in);
     return {loads_[kernel::kLoadWidth], tangential_[0], moment_[0]};
@@ -69,10 +74,9 @@ class HeldPair {
   LawParameters law_;
   PairForceKernel kernel_ = nullptr;
   AlignedVector<double> rows_, loads_;
-  alignas(64) kernel::RowOffset i_[kPairBatch] = {16, 16, 16, 16, 16, 16, 16, 16},
-                                j_[kPairBatch] = {24, 24, 24, 24, 24, 24, 24, 24};  // the padding pair
-  std::uint8_t shift_[kPairBatch] = {4, 4, 4, 4, 4, 4, 4, 4};
-  alignas(64) double damping_[kPairBatch] = {}, sum_[kPairBatch] = {1, 1, 1, 1, 1, 1, 1, 1};
+  alignas(64) kernel::RowOffset i_[kPairBatch], j_[kPairBatch];
+  std::uint8_t shift_[kPairBatch];
+  alignas(64) double damping_[kPairBatch] = {}, sum_[kPairBatch];
   alignas(64) double tangential_[kPairBatch] = {}, moment_[kPairBatch] = {};
 };
 

@@ -29,7 +29,7 @@ PullOff pull_off(const LawScene& law, double step_fraction);
 // impulse is zero over a collision, which begins and ends at h = 0).
 struct ObliqueImpact {
   double normal_velocity = 0, tangential_velocity = 0, spin = 0;  // of disk 1 after, averaged over the phases
-  double spread = 0;                                             // of the tangential velocity
+  double spread = 0;                                              // of the tangential velocity
   double sliding_exact = 0;  // tangential velocity of disk 1 if it slides throughout
 };
 ObliqueImpact oblique_impact(const LawScene& law, double step_fraction, double normal_speed, double tangential_speed,

@@ -49,7 +49,8 @@ Throughput measure_throughput(Packing<2> packing, const ThroughputSetup& setup) 
   solver.run(std::max<std::int64_t>(10, static_cast<std::int64_t>(kPilotGrainSteps / n)));  // warm caches, settle lists
 
   Throughput t;
-  t.steps = setup.steps > 0 ? setup.steps : std::max<std::int64_t>(20, static_cast<std::int64_t>(kDefaultGrainSteps / n));
+  t.steps =
+      setup.steps > 0 ? setup.steps : std::max<std::int64_t>(20, static_cast<std::int64_t>(kDefaultGrainSteps / n));
   const StepTimes before = solver.times();
   const double cpu = cpu_seconds();
   const auto wall = std::chrono::steady_clock::now();

@@ -9,17 +9,17 @@
 namespace isostat::lab {
 
 struct ThroughputSetup {
-  std::int64_t steps = 0;    // 0: about two seconds' worth
+  std::int64_t steps = 0;  // 0: about two seconds' worth
   int threads = 1;
   bool friction = true, rolling = true, cohesion = false, free_cell = false;
 };
 
 struct Throughput {
-  double grain_steps_per_cpu_second = 0;   // CPU time of stepping only
+  double grain_steps_per_cpu_second = 0;  // CPU time of stepping only
   double grain_steps_per_wall_second = 0;
   std::int64_t grains = 0, steps = 0;
   double cpu_seconds = 0, wall_seconds = 0;
-  double pairs_per_grain = 0;              // in the inner list
+  double pairs_per_grain = 0;  // in the inner list
   StepTimes times;
   std::string_view isa;
 };

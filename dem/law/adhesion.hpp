@@ -19,8 +19,8 @@ struct AdhesionLinear {
   static constexpr bool acts = true;
   template <class Real>
   static Real force(const LawParameters& p, Real gap) {
-    const Real reach = Real(1.0) - stdx::max(gap, Real(0.0)) * Real(1.0 / p.attraction_range);
-    return Real(-p.attraction) * stdx::max(reach, Real(0.0));
+    const Real reach = Real(1.0) - max(gap, Real(0.0)) * Real(1.0 / p.attraction_range);
+    return Real(-p.attraction) * max(reach, Real(0.0));
   }
 };
 

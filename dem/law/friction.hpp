@@ -44,7 +44,7 @@ template <class Axis, class Real>
 Real spring(const LawParameters& p, Real force, Real displacement, Real repulsion, Real* released = nullptr) {
   const Real limit = Real(Axis::coefficient(p)) * repulsion;
   const Real trial = mul_add<Real>(Real(-Axis::stiffness(p)), displacement, force);
-  const Real clamped = stdx::min(stdx::max(trial, -limit), limit);
+  const Real clamped = min(max(trial, -limit), limit);
   if (released) *released = trial * trial - clamped * clamped;
   return clamped;
 }

@@ -15,7 +15,7 @@ namespace stdx = std::experimental;
 struct NormalLinear {
   template <class Real>
   static Real repulsion(const LawParameters& p, Real gap) {
-    return stdx::max(Real(-p.normal_stiffness) * gap, Real(0.0));
+    return max(Real(-p.normal_stiffness) * gap, Real(0.0));
   }
 };
 
