@@ -10,7 +10,6 @@
 #include "dem/network_file.hpp"
 #include "dem/scene_file.hpp"
 #include "dem/state_file.hpp"
-#include "dem/state_seal.hpp"
 #include "tests/fuzz/fuzz_targets.hpp"
 
 namespace isostat {
@@ -83,7 +82,6 @@ std::vector<std::string> states() {
 TEST(Fuzz, Scene) { run(fuzz_scene, files("scenes", ".toml"), 2000); }
 TEST(Fuzz, Network) { run(fuzz_network, files("clusters", ".net"), 300); }
 TEST(Fuzz, State) { run(fuzz_state, states(), 50); }
-TEST(Fuzz, SealedState) { run(fuzz_sealed_state, states(), 20); }
 
 TEST(Fuzz, DeepNesting) {
   std::string dotted, tables, arrays = "seed = ";
