@@ -45,33 +45,29 @@ std::int64_t spqr_floppy(const RigidityMatrix& g) {
   return g.columns() - rank;
 }
 
-// Zero pivots of an L D L^T of G^T G + tiny I under a threshold relative to the largest pivot.
+// L D L^T of G^T G in which CHOLMOD replaces pivots below a threshold (relative to the largest diagonal) by it; the
+// number of pivots replaced is K.
 std::int64_t cholesky_floppy(const RigidityMatrix& g, double threshold) {
   SymmetricMatrix a = weighted_normal_matrix(g, std::vector<double>(static_cast<std::size_t>(g.rows()), 1.0));
-  for (std::int32_t c = 0; c < a.size; ++c)
-    if (a.row[static_cast<std::size_t>(a.start[static_cast<std::size_t>(c)])] == c)
-      a.value[static_cast<std::size_t>(a.start[static_cast<std::size_t>(c)])] += 1e-14;
+  double top = 0;
+  for (double v : a.value) top = std::max(top, v);
   cholmod_common common;
   cholmod_start(&common);
   common.supernodal = CHOLMOD_SIMPLICIAL;
   common.print = 0;
+  common.dbound = threshold * top;
   cholmod_sparse view{};
   view.nrow = view.ncol = static_cast<std::size_t>(a.size);
   view.nzmax = a.row.size();
   view.p = a.start.data(), view.i = a.row.data(), view.x = a.value.data();
-  view.stype = -1, view.itype = CHOLMOD_INT, view.xtype = CHOLMOD_REAL, view.dtype = CHOLMOD_DOUBLE, view.sorted = 1,
-  view.packed = 1;
+  view.stype = -1, view.itype = CHOLMOD_INT, view.xtype = CHOLMOD_REAL, view.dtype = CHOLMOD_DOUBLE;
+  view.sorted = 1, view.packed = 1;
   cholmod_factor* f = cholmod_analyze(&view, &common);
   cholmod_factorize(&view, f, &common);
-  std::int64_t small = 0;
-  double top = 0;
-  const auto* p = static_cast<const int*>(f->p);
-  const auto* x = static_cast<const double*>(f->x);
-  for (std::size_t c = 0; c < f->n; ++c) top = std::max(top, std::abs(x[p[c]]));
-  for (std::size_t c = 0; c < f->n; ++c) small += !(std::abs(x[p[c]]) > threshold * top);
+  const auto replaced = static_cast<std::int64_t>(common.ndbounds_hit);
   cholmod_free_factor(&f, &common);
   cholmod_finish(&common);
-  return small;
+  return replaced;
 }
 
 }  // namespace
