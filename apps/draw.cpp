@@ -1,9 +1,13 @@
 // isostat draw: from the options to a picture of a packing.
+#include <cmath>
+
 #include "analysis/figure/figure_file.hpp"
 #include "analysis/figure/packing_picture.hpp"
 #include "analysis/load_input.hpp"
 #include "analysis/network/coordination.hpp"
 #include "analysis/network/force_scale.hpp"
+#include "analysis/rigidity/clusters.hpp"
+#include "analysis/stiffness/vibration.hpp"
 #include "apps/arguments.hpp"
 #include "apps/commands.hpp"
 #include "dem/input_error.hpp"
@@ -13,13 +17,39 @@ namespace {
 
 PictureKind picture_kind(const Arguments& arguments, const AnalysisInput& input, bool forces_known) {
   const bool asks_forces = arguments.has("--threshold") || arguments.has("--width");
-  const std::string what = arguments.choice("--what", {"grains", "forces", "velocity"})
+  const std::string what = arguments.choice("--what", {"grains", "forces", "velocity", "clusters", "modes"})
                                .value_or(asks_forces || forces_known ? "forces" : "grains");
   if (asks_forces && what != "forces")
     throw InputError("command line", 0, "--what", what, "--threshold and --width are about forces");
   if (what == "forces" && !forces_known)
     throw InputError(input.path, 0, "--what", "forces", "this file gives no forces; draw grains");
-  return what == "forces" ? PictureKind::forces : what == "velocity" ? PictureKind::velocity : PictureKind::grains;
+  if (what == "clusters") return PictureKind::clusters;
+  if (what == "velocity" || what == "modes") return PictureKind::velocity;
+  return what == "forces" ? PictureKind::forces : PictureKind::grains;
+}
+
+// Rigid clusters (analysis/rigidity/clusters.hpp) of the network under the input's own law, fixed cell.
+void colour_clusters(const AnalysisInput& input, PictureOptions& options) {
+  const RigidClusters found = rigid_clusters(input.packing, input.network_law({}), false);
+  options.cluster_of_grain = found.cluster_of_grain;
+  options.cluster_of_link = found.cluster_of_link;
+  for (const RigidCluster& c : found.clusters) options.hyperstatic.push_back(c.hyperstatic > 0);
+}
+
+// The packing with the displacements of a vibration mode in the place of velocities; mode 1 is the lowest above zero.
+Packing<2> displaced_by_mode(const AnalysisInput& input, int mode) {
+  const VibrationModes modes = vibration_modes(input.packing, input.network_law({}), law_of(input), mode, true);
+  if (modes.displacement.size() < static_cast<std::size_t>(mode))
+    throw InputError("command line", 0, "--mode", std::to_string(mode),
+                     "this packing has " + std::to_string(modes.displacement.size()) + " modes above zero");
+  const std::vector<double>& u = modes.displacement.back();
+  const auto per_body = static_cast<std::size_t>(modes.per_body);
+  Packing<2> moved = input.packing;
+  for (std::size_t i = 0; i < moved.bodies.size(); ++i) {
+    moved.bodies.velocity[i] = {{u[per_body * i], u[per_body * i + 1]}};
+    moved.bodies.spin[i] = per_body == 3 ? u[per_body * i + 2] : 0;
+  }
+  return moved;
 }
 
 // Scales and their names: of the law that the state knows, else bare numbers in the file's own units.
@@ -40,7 +70,9 @@ int draw_command(int argc, char** argv) {
   const Arguments arguments(
       argc, argv,
       {{"-o", "FILE", "the picture; its extension is the format: .svg, .pdf or .png"},
-       {"--what", "KIND", "grains, forces or velocity; default: forces, or grains if the file gives no forces"},
+       {"--what", "KIND",
+        "grains, forces, velocity, clusters or modes; default: forces, or grains if the file gives no forces"},
+       {"--mode", "K", "which vibration mode --what modes draws, 1: the lowest above zero (default 1)"},
        {"--threshold", "F", "links whose total force is below F are blue, disks touched only by such light grey"},
        {"--width", "MEASURE", "line width by normal or total force; default: normal, with --threshold total"}},
       {"INPUT -o FILE", "Draws a packing: its grains, the forces between them, or their velocities."});
@@ -66,7 +98,19 @@ int draw_command(int argc, char** argv) {
     const Coordination c = coordination(input.packing, reading);
     options.rattler.assign(c.rattler.begin(), c.rattler.end());
   }
-  const PackingPicture picture(input.packing, options);
+  if (options.kind == PictureKind::clusters) colour_clusters(input, options);
+  const bool modes = arguments.value("--what") == "modes";
+  const double mode = arguments.number("--mode").value_or(1);
+  if (arguments.has("--mode") && !(modes && mode >= 1 && mode <= 100 && mode == std::floor(mode)))
+    throw InputError("command line", 0, "--mode", *arguments.value("--mode"),
+                     "an integer from 1 to 100, with --what modes");
+  Packing<2> displaced;
+  if (modes) {
+    displaced = displaced_by_mode(input, static_cast<int>(mode));
+    options.speed_symbol = rich("`u`");
+    options.speed_unit = options.spin_unit = {};
+  }
+  const PackingPicture picture(modes ? displaced : input.packing, options);
   const auto canvas = file.canvas(picture.size());
   picture.draw(*canvas);
   file.write(*canvas);

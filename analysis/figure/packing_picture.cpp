@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kMargin = 12;         // [pt] around the page
 constexpr double kHairline = 0.05;     // [mean diameter] least width of blue lines, which tell a kind and not a force
+constexpr double kPaleCluster = 0.6;   // share of white in the colour of an isostatic cluster
 constexpr double kSmallestPage = 360;  // [pt] room for the legend
 
 // Largest reach of the arrows beyond the disks, if the rms speed is drawn as one mean diameter.
@@ -66,7 +67,7 @@ void PackingPicture::draw(Canvas& canvas) const {
   draw_disks(canvas);
   canvas.end_group();
   canvas.begin_group("links");
-  if (options_.kind == PictureKind::grains) draw_links(canvas);
+  if (options_.kind == PictureKind::grains || options_.kind == PictureKind::clusters) draw_links(canvas);
   if (options_.kind == PictureKind::forces) draw_forces(canvas);
   canvas.end_group();
   if (options_.kind == PictureKind::velocity) {
@@ -90,12 +91,18 @@ void PackingPicture::draw_disks(Canvas& canvas) const {
   constexpr int kSpinSteps = 32;  // shades on each side of zero
   const Bodies<2>& b = packing_.bodies;
   const bool velocity = options_.kind == PictureKind::velocity;
-  std::vector<std::vector<DiskMark>> batches(velocity ? 2 * kSpinSteps + 1 : 3);
+  const bool clusters = options_.kind == PictureKind::clusters;
+  // clusters: batch 0 in none, then by colour, isostatic before hyperstatic
+  std::vector<std::vector<DiskMark>> batches(velocity ? 2 * kSpinSteps + 1 : clusters ? 1 + 2 * kCurves.size() : 3);
   for (std::size_t i = 0; i < b.size(); ++i) {
     std::size_t batch = static_cast<std::size_t>(shade_[i]);
     if (velocity) {
       const double t = reference_spin_ > 0 ? std::clamp(b.spin[i] / reference_spin_, -1.0, 1.0) : 0;
       batch = static_cast<std::size_t>(std::lround(kSpinSteps * (t + 1)));
+    }
+    if (clusters && options_.cluster_of_grain[i] >= 0) {
+      const auto c = static_cast<std::size_t>(options_.cluster_of_grain[i]);
+      batch = 1 + c % kCurves.size() + (options_.hyperstatic[c] ? kCurves.size() : 0);
     }
     const Vec2 r = frame_.wrap(b.position[i]), reach{{b.radius[i], b.radius[i]}};
     frame_.for_visible_images(r - reach, r + reach, [&](const Vec2& offset) {
@@ -108,6 +115,10 @@ void PackingPicture::draw_disks(Canvas& canvas) const {
   for (std::size_t k = 0; k < batches.size(); ++k) {
     Paint paint{kGrain, Stroke{kGrainOutline, outline.width, {}}};
     if (options_.kind == PictureKind::forces) paint = {std::array{kDisk, kRattler, kUnstressed}[k], outline};
+    if (clusters) {
+      const Color strong = k > 0 ? curve_color((k - 1) % kCurves.size()) : kDisk;
+      paint = {k > 0 && k <= kCurves.size() ? blend(strong, kWhite, kPaleCluster) : strong, outline};
+    }
     if (velocity) paint = {diverging(static_cast<double>(k) / kSpinSteps - 1), outline};
     canvas.disks(batches[k], paint);
   }
@@ -132,8 +143,12 @@ void PackingPicture::segments(Canvas& canvas, const std::vector<std::pair<const 
 void PackingPicture::draw_links(Canvas& canvas) const {
   const double width = std::clamp(0.06 * frame_.mean_diameter() * frame_.scale(), 0.2, 2.0);
   std::vector<std::pair<const Link<2>*, double>> closed, distant;
-  for (const Link<2>& link : packing_.links)
-    (link.kind == LinkKind::distant ? distant : closed).emplace_back(&link, width);
+  for (std::size_t l = 0; l < packing_.links.size(); ++l) {
+    const Link<2>& link = packing_.links[l];
+    const bool blue =
+        options_.kind == PictureKind::clusters ? options_.cluster_of_link[l] < 0 : link.kind == LinkKind::distant;
+    (blue ? distant : closed).emplace_back(&link, width);
+  }
   segments(canvas, distant, kDistant);
   segments(canvas, closed, kInk);
 }
@@ -214,6 +229,18 @@ std::vector<LegendItem> PackingPicture::legend_items() const {
     if (closed && distant) items.push_back(line_item(em, kInk, plain("contact")));
     if (distant) items.push_back(line_item(em, kDistant, plain("distant")));
   }
+  if (options_.kind == PictureKind::clusters) {
+    const Stroke outline{kDiskOutline, std::max(outline_width(), 0.4), {}};
+    bool strong = false, pale = false, hinge = false;
+    for (const bool h : options_.hyperstatic) (h ? strong : pale) = true;
+    for (const std::int32_t c : options_.cluster_of_link) hinge = hinge || c < 0;
+    if (strong) items.push_back(disk_item(em, {curve_color(0), outline}, plain("hyperstatic cluster")));
+    if (pale)
+      items.push_back(
+          disk_item(em, {blend(curve_color(0), kWhite, kPaleCluster), outline}, plain("isostatic cluster")));
+    items.push_back(disk_item(em, {kDisk, outline}, plain("single")));
+    if (hinge) items.push_back(line_item(em, kDistant, plain("hinge")));
+  }
   if (options_.kind == PictureKind::forces) {
     std::array<bool, 3> color{}, shade{};
     for (const Link<2>& link : packing_.links)
@@ -250,7 +277,7 @@ std::vector<LegendItem> PackingPicture::legend_items() const {
                          const Polygon mark = arrow(p, {{length, 0}}, shaft);
                          canvas.polygons({&mark, 1}, {kInk, std::nullopt});
                        },
-                       rich("`v` = ") + with_unit(reference_speed_, options_.speed_unit)});
+                       options_.speed_symbol + plain(" = ") + with_unit(reference_speed_, options_.speed_unit)});
     } else {
       items.push_back(text_item(plain("at rest")));
     }

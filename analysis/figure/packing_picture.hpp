@@ -1,5 +1,6 @@
 // Picture of a packing: its grains, the forces between them, or their velocities.
 #pragma once
+#include <cstdint>
 #include <vector>
 
 #include "analysis/figure/canvas.hpp"
@@ -11,9 +12,10 @@
 namespace isostat {
 
 enum class PictureKind {
-  grains,   // disks, and the links between them as thin lines
-  forces,   // force_convention.hpp
-  velocity  // arrows, and disks coloured by spin
+  grains,    // disks, and the links between them as thin lines
+  forces,    // force_convention.hpp
+  velocity,  // arrows, and disks coloured by spin
+  clusters   // rigid clusters: a colour each, strong where hyperstatic, pale where isostatic; hinges blue
 };
 
 // Line widths in units of a, the largest diameter. Forces of order F0 are as wide as radii are (Sec. IV.B.1); the
@@ -28,6 +30,10 @@ struct PictureOptions {
   RichText force_scale_label;                   // its name; empty: written as a number
   RichText length_unit, speed_unit, spin_unit;  // for the scale bars; empty for a foreign packing
   std::vector<bool> rattler;                    // one a body, or none
+  RichText speed_symbol = rich("`v`");          // what the arrows are
+  std::vector<std::int32_t> cluster_of_grain;   // clusters: one a body, -1: in none
+  std::vector<std::int32_t> cluster_of_link;    // clusters: one a link, -1: a hinge
+  std::vector<bool> hyperstatic;                // by cluster
 };
 
 class PackingPicture {
