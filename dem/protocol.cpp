@@ -6,6 +6,7 @@
 #include <ctime>
 #include <numbers>
 
+#include "dem/clusters.hpp"
 #include "dem/random.hpp"
 
 namespace isostat {
@@ -222,15 +223,19 @@ class StageRun {
     return false;
   }
 
-  // The finishing drag comes on when only creep is left: the kinetic criterion is met, or the contacts have not
-  // changed for finish.quiet_time.
+  // The finishing drag comes on when only creep is left: the stress is what it should be, no grain or cluster is in
+  // flight (with cohesion: all are one cluster), and the kinetic criterion is met or the contacts have not changed for
+  // finish.quiet_time. Earlier it would stop the very motions that make the packing: at the start of a compression the
+  // kinetic criterion is met too.
   void update_drag() {
     const std::uint64_t hash = contact_set_hash(s_.packing);
     if (hash != s_.progress.contacts_hash) s_.progress.contacts_hash = hash, s_.progress.contacts_changed_at = s_.time;
-    if (s_.scene.finish.method != Finish::drag || s_.progress.drag_on || s_.packing.links.empty()) return;
-    const bool slow = s_.certificate.kinetic_energy_per_grain < s_.certificate.tolerance_kinetic;
+    if (s_.scene.finish.method != Finish::drag || s_.progress.drag_on) return;
+    const Certificate& c = s_.certificate;
+    const bool slow = c.kinetic_energy_per_grain < c.tolerance_kinetic;
     const bool quiet = s_.time - s_.progress.contacts_changed_at >= s_.scene.finish.quiet_time;
-    if (!slow && !quiet) return;
+    if (!(slow || quiet) || !(c.pressure_error < c.tolerance_pressure)) return;
+    if (s_.law.attraction > 0 ? count_clusters(s_.packing) > 1 : s_.packing.links.empty()) return;
     s_.progress.drag_on = true;
     solver_.set_drag(s_.scene.finish.drag);
   }

@@ -6,7 +6,9 @@
 #include <numeric>
 
 #include "dem/input_error.hpp"
+#include "dem/packing_file.hpp"
 #include "dem/random.hpp"
+#include "dem/touching.hpp"
 
 namespace isostat {
 namespace {
@@ -59,12 +61,50 @@ double time_step(const Scene& scene, const Bodies<2>& bodies) {
   return scene.step.fraction * std::sqrt(heaviest / scene.law.normal_stiffness);
 }
 
-State initial_state(const Scene& scene, std::uint64_t seed) {
-  const GrainsScene& g = scene.grains;
+namespace {
+
+constexpr double kMostOverlapAtStart = 0.1;  // [R_i + R_j] beyond, stored energy makes the first steps an explosion
+
+State without_bodies(const Scene& scene, std::uint64_t seed) {
   State state;
   state.scene = scene;
   state.seed = seed;
   state.law = resolve(scene.law);
+  return state;
+}
+
+// grains.file: bodies, cell and spring histories of a packing under the scene's law, at time 0.
+State state_from_file(const Scene& scene, std::uint64_t seed) {
+  const std::string& path = scene.grains.file;
+  PackingFile file = read_packing(path);
+  if (file.packing_3d) throw InputError(path, 0, "grains.file", path, "a packing of disks is wanted; this one is 3D");
+  if (!file.packing.cell) throw InputError(path, 0, "grains.file", path, "a packing with a periodic cell is wanted");
+  if (file.packing.bodies.size() == 0) throw InputError(path, 0, "grains.file", path, "it holds no grain");
+  State state = without_bodies(scene, seed);
+  state.packing = std::move(file.packing);
+  set_disk_inertia(state.packing.bodies);
+  if (!file.links_given) state.packing.links.clear();
+  const Bodies<2>& b = state.packing.bodies;
+  for (const Link<2>& l : touching_links(state.packing, 0.0)) {
+    const auto i = static_cast<std::size_t>(l.i), j = static_cast<std::size_t>(l.j);
+    const Vec2 r = b.position[j] + state.packing.cell->offset(l.shift) - b.position[i];
+    const double sum = b.radius[i] + b.radius[j];
+    if (norm(r) < (1 - kMostOverlapAtStart) * sum)
+      throw InputError(path, 0, "grains.file", path,
+                       "grains " + std::to_string(b.id[i]) + " and " + std::to_string(b.id[j]) + " overlap by " +
+                           std::to_string(sum - norm(r)) + " a; at most a tenth of the sum of radii is allowed");
+  }
+  state.time_step = time_step(scene, b);
+  state.cell_motion.reference_length = state.packing.cell->length;
+  return state;
+}
+
+}  // namespace
+
+State initial_state(const Scene& scene, std::uint64_t seed) {
+  const GrainsScene& g = scene.grains;
+  if (!g.file.empty()) return state_from_file(scene, seed);
+  State state = without_bodies(scene, seed);
   Random random(seed);
 
   const auto n = static_cast<std::size_t>(g.count);

@@ -2,33 +2,13 @@
 
 #include <cstdio>
 #include <numbers>
-#include <numeric>
 #include <vector>
 
+#include "dem/clusters.hpp"
 #include "dem/energy.hpp"
 #include "dem/equilibrium.hpp"
 
 namespace isostat {
-namespace {
-
-// Connected components of the grains under all links; a grain alone is a cluster.
-std::size_t clusters(const Packing<2>& p) {
-  std::vector<std::size_t> parent(p.bodies.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  auto root = [&](std::size_t k) {
-    while (parent[k] != k) k = parent[k] = parent[parent[k]];
-    return k;
-  };
-  std::size_t count = p.bodies.size();
-  for (const Link<2>& l : p.links) {
-    const std::size_t a = root(static_cast<std::size_t>(l.i)), b = root(static_cast<std::size_t>(l.j));
-    if (a != b) parent[a] = b, --count;
-  }
-  return count;
-}
-
-}  // namespace
-
 std::string series_header(bool energies) {
   std::string h =
       "t,Phi,L1,L2,sigma11,sigma22,strain_rate1,strain_rate2,kinetic_energy,z,clusters,max_force,max_moment,"
@@ -57,7 +37,7 @@ std::string series_row(const State& s, bool with_energies) {
                                 s.cell_motion.strain_rate[1],
                                 e.kinetic,
                                 2 * static_cast<double>(interactions) / static_cast<double>(p.bodies.size()),
-                                static_cast<double>(clusters(p)),
+                                static_cast<double>(count_clusters(p)),
                                 s.certificate.max_force,
                                 s.certificate.max_moment,
                                 s.certificate.pressure_error,
