@@ -238,7 +238,9 @@ std::vector<LegendItem> PackingPicture::legend_items() const {
     if (pale)
       items.push_back(
           disk_item(em, {blend(curve_color(0), kWhite, kPaleCluster), outline}, plain("isostatic cluster")));
-    items.push_back(disk_item(em, {kDisk, outline}, plain("single")));
+    const auto& cluster = options_.cluster_of_grain;
+    if (std::find(cluster.begin(), cluster.end(), -1) != cluster.end())
+      items.push_back(disk_item(em, {kDisk, outline}, plain("single")));
     if (hinge) items.push_back(line_item(em, kDistant, plain("hinge")));
   }
   if (options_.kind == PictureKind::forces) {

@@ -24,6 +24,7 @@ TEST_F(DrawRigidity, ClustersAndHinges) {
   EXPECT_TRUE(shows("isostatic cluster"));
   EXPECT_FALSE(shows("hyperstatic cluster"));
   EXPECT_FALSE(shows("hinge"));
+  EXPECT_FALSE(shows("single"));
 }
 
 TEST_F(DrawRigidity, ModesByNumber) {
