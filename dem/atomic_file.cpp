@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <utility>
 
 #include "dem/input_error.hpp"
 
@@ -35,17 +36,12 @@ std::string temporary_name(const std::string& path) {
 class Descriptor {
  public:
   explicit Descriptor(int number) : number_(number) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
   ~Descriptor() {
     if (number_ >= 0) ::close(number_);
   }
   operator int() const { return number_; }
-  bool close() {
-    const int number = number_;
-    number_ = -1;
-    return ::close(number) == 0;
-  }
+  bool close() { return ::close(std::exchange(number_, -1)) == 0; }
 
  private:
   int number_;
@@ -61,45 +57,80 @@ bool write_all(int file, std::string_view bytes) {
   return true;
 }
 
-// Where the bytes are to go: the target of a symbolic link, and never a directory or a device, which a rename would
-// replace.
-std::string destination(const std::string& path) {
-  struct stat info {};
-  if (::stat(path.c_str(), &info) != 0) return path;  // a new file
-  if (S_ISDIR(info.st_mode)) refuse(path, "cannot be written", EISDIR);
-  if (!S_ISREG(info.st_mode)) throw InputError(path, 0, "", "", "cannot be written: not a regular file");
-  std::array<char, PATH_MAX> real{};
-  return ::realpath(path.c_str(), real.data()) ? std::string(real.data()) : path;
-}
+// A file on its way: under a temporary name beside its place, or, where its place is a device or a pipe, which a rename
+// would replace, nowhere. Removes what it wrote unless put in place.
+class PendingFile {
+ public:
+  explicit PendingFile(std::string path) : path_(std::move(path)), target_(path_) {
+    struct stat info {};
+    if (::stat(path_.c_str(), &info) != 0) return;  // a new file
+    if (S_ISDIR(info.st_mode)) refuse(path_, kRefusal, EISDIR);
+    special_ = !S_ISREG(info.st_mode);
+    std::array<char, PATH_MAX> real{};
+    if (::realpath(path_.c_str(), real.data())) target_ = real.data();
+  }
+  PendingFile(PendingFile&& other) noexcept
+      : path_(std::move(other.path_)),
+        target_(std::move(other.target_)),
+        temporary_(std::exchange(other.temporary_, {})),
+        special_(other.special_) {}
+  ~PendingFile() {
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  }
 
-constexpr mode_t kMode = 0666;  // the user's umask takes away from it
+  void probe() {
+    if (!special_)
+      create();
+    else if (::access(path_.c_str(), W_OK) != 0)
+      refuse(path_, kRefusal, errno);
+  }
+  void write(std::string_view bytes) {
+    Descriptor file = special_ ? Descriptor(::open(path_.c_str(), O_WRONLY | O_CLOEXEC)) : create();
+    if (file < 0 || !write_all(file, bytes) || (!special_ && ::fsync(file) != 0) || !file.close())
+      refuse(path_, kRefusal, errno);
+  }
+  void put_in_place() {
+    if (special_) return;
+    if (std::rename(temporary_.c_str(), target_.c_str()) != 0) refuse(path_, kRefusal, errno);
+    temporary_.clear();
+    // The new name is safe on disk only when its directory is; a file system that cannot sync directories is no fault.
+    const Descriptor directory(::open(directory_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (directory >= 0) (void)::fsync(directory);
+  }
+
+ private:
+  static constexpr mode_t kMode = 0666;  // the user's umask takes away from it
+  static constexpr const char* kRefusal = "cannot be written";
+
+  Descriptor create() {
+    const std::string name = temporary_name(target_);
+    const int file = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kMode);
+    if (file < 0) refuse(path_, kRefusal, errno);
+    temporary_ = name;
+    return Descriptor(file);
+  }
+
+  std::string path_, target_, temporary_;
+  bool special_ = false;
+};
 
 }  // namespace
 
 void write_file_atomically(const std::string& path, std::string_view bytes) {
-  const std::string target = destination(path), temporary = temporary_name(target);
-  Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kMode));
-  if (file < 0) refuse(path, "cannot be written", errno);
-  const bool written = write_all(file, bytes) && ::fsync(file) == 0;
-  int error = errno;
-  const bool closed = file.close();
-  if (written && !closed) error = errno;
-  if (!written || !closed || std::rename(temporary.c_str(), target.c_str()) != 0) {
-    if (written && closed) error = errno;
-    ::unlink(temporary.c_str());
-    refuse(path, "cannot be written", error);
-  }
-  // The new name is safe on disk only when its directory is; a file system that cannot sync directories is no fault.
-  const Descriptor directory(::open(directory_of(target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (directory >= 0) (void)::fsync(directory);
+  PendingFile file(path);
+  file.write(bytes);
+  file.put_in_place();
+}
+
+void write_files_atomically(const std::vector<std::pair<std::string, std::string>>& path_and_bytes) {
+  std::vector<PendingFile> files;
+  for (const auto& [path, bytes] : path_and_bytes) files.emplace_back(path).write(bytes);
+  for (PendingFile& file : files) file.put_in_place();
 }
 
 void require_writable(const std::string& path) {
   if (path.empty()) throw InputError("command line", 0, "", "", "the name of the output file is empty");
-  const std::string temporary = temporary_name(destination(path));
-  const Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kMode));
-  if (file < 0) refuse(path, "cannot be written", errno);
-  ::unlink(temporary.c_str());
+  PendingFile(path).probe();
 }
 
 std::string read_whole_file(const std::string& path) {

@@ -2,11 +2,17 @@
 #pragma once
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace isostat {
 
-// Throws InputError (path and the system's reason) and leaves the old file, if any, as it was.
+// Throws InputError (path and the system's reason) and leaves the old file, if any, as it was. A symbolic link keeps
+// pointing where it did; to a device or a pipe the bytes are simply written.
 void write_file_atomically(const std::string& path, std::string_view bytes);
+
+// Several files that belong together: all are written in full before the first appears under its name.
+void write_files_atomically(const std::vector<std::pair<std::string, std::string>>& path_and_bytes);
 
 // Throws InputError unless a file could be created at this path now: to be asked before a long run starts.
 void require_writable(const std::string& path);

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <unordered_map>
 
+#include "dem/atomic_file.hpp"
 #include "dem/input_error.hpp"
 #include "dem/touching.hpp"
 
@@ -326,24 +327,7 @@ std::string network_text(const Packing<D>& packing) {
 
 template <int D>
 void write_network(const std::string& path, const Packing<D>& packing) {
-  const std::string partial = path + ".tmp";
-  {
-    std::ofstream file(partial, std::ios::binary | std::ios::trunc);
-    file << network_text(packing);
-    file.close();
-    if (!file) {
-      std::error_code ignored;
-      std::filesystem::remove(partial, ignored);
-      throw InputError(path, 0, "", "", "cannot be written (directory, permission or disk space)");
-    }
-  }
-  std::error_code error;
-  std::filesystem::rename(partial, path, error);
-  if (error) {
-    std::error_code ignored;
-    std::filesystem::remove(partial, ignored);
-    throw InputError(path, 0, "", "", "cannot be written: " + error.message());
-  }
+  write_file_atomically(path, network_text(packing));
 }
 
 template NetworkFile<2> parse_network(std::string_view, const std::string&, std::optional<double>);

@@ -33,8 +33,7 @@ TEST_F(BadInput, AllFaultsOfASceneAtOnce) {
 
 TEST_F(BadInput, OutputThatCannotBeWritten) {
   const std::string scene = " " ISOSTAT_DATA "/scenes/disks-method1.toml --set grains.count=20";
-  for (const std::string& path :
-       {in_folder("no/such/folder/state.h5"), std::string("/tmp"), std::string("/dev/null")}) {
+  for (const std::string& path : {in_folder("no/such/folder/state.h5"), std::string("/tmp")}) {
     const Outcome o = run("pack" + scene + " -o " + path);
     EXPECT_EQ(o.code, 2) << path;
     EXPECT_THAT(o.err, HasSubstr(path));
