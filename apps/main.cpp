@@ -27,7 +27,7 @@ const std::vector<Command>& commands() {
       {"analyze", analyze_command, "counts, equilibrium, stress, forces, percolation, ... of packings"},
       {"convert", convert_command, "state, network, CSV, LAMMPS dump, XYZ and ParaView files"},
       {"info", info_command, "what a state file is: hash, cell, scene, dimensionless numbers, provenance"},
-      {"draw", draw_command, "picture of a packing: grains, forces, velocities; .svg, .pdf, .png"},
+      {"draw", draw_command, "picture of a packing: grains, forces, pores, clusters, modes; .svg, .pdf, .png"},
       {"plot", plot_command, "curves of a result or table: .svg, .pdf, .png"},
   };
   return list;

@@ -49,6 +49,23 @@ TEST_F(Figures, DrawsForces) {
   EXPECT_NE(thresholded.find("= "), std::string::npos);
 }
 
+TEST_F(Figures, DrawsClustersPoresAndModes) {
+  const std::string net = cluster("double_triangle.net");
+  for (const char* what : {"clusters", "pores", "modes", "velocity"}) {
+    const Outcome o = run("draw " + net + " --what " + what + " -o " + in_folder("w.svg"));
+    EXPECT_EQ(o.code, 0) << what << o.err;
+    EXPECT_GE(count(content(in_folder("w.svg")), "<circle"), 4u) << what;
+  }
+  ASSERT_EQ(run("draw " + net + " --what clusters -o " + in_folder("c.svg")).code, 0);
+  EXPECT_NE(content(in_folder("c.svg")).find("&gt; 0"), std::string::npos);  // H = 1
+  ASSERT_EQ(run("draw " + cluster("triangle.net") + " --what clusters -o " + in_folder("c.svg")).code, 0);
+  EXPECT_NE(content(in_folder("c.svg")).find(" = 0"), std::string::npos);  // H = 0
+  // a triangle of pins has 9 - 6 rigid motions and 6 modes above them
+  EXPECT_EQ(run("draw " + cluster("triangle.net") + " --what modes --mode 6 -o " + in_folder("m.svg")).code, 0);
+  EXPECT_EQ(run("draw " + cluster("triangle.net") + " --what modes --mode 7 -o " + in_folder("n.svg")).code, 2);
+  EXPECT_EQ(run("draw " + net + " --what grains --mode 1 -o " + in_folder("n.svg")).code, 2);
+}
+
 TEST_F(Figures, BadInputLeavesNothing) {
   const std::string net = cluster("double_triangle.net"), out = in_folder("x.svg");
   const std::size_t before = 2;  // stdout and stderr of the run itself

@@ -22,8 +22,8 @@ struct Drawn {
   double scale;  // [pt per unit length]
 };
 
-Drawn draw(const Packing<2>& packing, const PictureOptions& options) {
-  const PackingPicture picture(packing, options);
+Drawn draw(const Packing<2>& packing, std::unique_ptr<PictureContent> content) {
+  const PackingPicture picture(packing, std::move(content));
   Drawn d;
   picture.draw(d.canvas);
   d.canvas.finish();
@@ -98,12 +98,11 @@ TEST(PackingPicture, ShowsTheTiledPlane) {
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     const Packing<2> p = oracle::random_packing(seed, 25, 40, true);
     for (const bool thresholded : {false, true}) {
-      PictureOptions options;
-      options.kind = PictureKind::forces;
-      options.force_scale = 2.0;
+      ForceOptions options;
+      options.scale = 2.0;
       if (thresholded) options.convention = {ForceMeasure::total, 0.7};
-      const Drawn d = draw(p, options);
-      const double unit = kWidthAtF0 * largest_diameter(p) / options.force_scale;
+      const Drawn d = draw(p, forces_content(options));
+      const double unit = kWidthAtF0 * largest_diameter(p) / options.scale;
       std::mt19937_64 random(seed);
       std::uniform_real_distribution<double> x(0, p.cell->length[0]), y(0, p.cell->length[1]);
       for (int k = 0; k < 400; ++k) {
@@ -128,9 +127,8 @@ TEST(PackingPicture, ShowsTheTiledPlane) {
 
 TEST(PackingPicture, DrawsNothingTwiceAndNothingOutside) {
   const Packing<2> p = oracle::random_packing(7, 30, 40, true);
-  PictureOptions options;
-  options.kind = PictureKind::forces;
-  const Drawn d = draw(p, options);
+  ForceOptions options;
+  const Drawn d = draw(p, forces_content(options));
   std::vector<const RecordingCanvas::Disk*> disks;
   for (const auto& disk : d.canvas.drawn_disks)
     if (disk.group == "disks") disks.push_back(&disk);
@@ -152,10 +150,9 @@ TEST(PackingPicture, DoubleTriangle) {
   for (Link<2>& link : p.links) link.normal_force = -0.1, link.tangential_force = 0.2;
   p.links[0].normal_force = 0.4, p.links[0].tangential_force = 0;
   p.links[1].kind = LinkKind::distant;
-  PictureOptions options;
-  options.kind = PictureKind::forces;
-  options.force_scale_label = rich("`F`_{0}");
-  const PackingPicture picture(p, options);
+  ForceOptions options;
+  options.scale_label = rich("`F`_{0}");
+  const PackingPicture picture(p, forces_content(options));
   RecordingCanvas canvas;
   picture.draw(canvas);
   canvas.finish();
@@ -190,9 +187,7 @@ TEST(PackingPicture, VelocityArrowsAndSpinColours) {
     p.bodies.velocity[i] = {{0.01 * normal(random), 0.01 * normal(random)}};
     p.bodies.spin[i] = i == 0 ? 1e3 : i == 1 ? -1e3 : 0.0;
   }
-  PictureOptions options;
-  options.kind = PictureKind::velocity;
-  const Drawn d = draw(p, options);
+  const Drawn d = draw(p, motion_content({p.bodies.velocity, p.bodies.spin, rich("`v`"), plain("spin"), {}, {}, {}}));
   double rms = 0, diameter = 0;
   for (std::size_t i = 0; i < p.bodies.size(); ++i) {
     rms += dot(p.bodies.velocity[i], p.bodies.velocity[i]);
@@ -219,9 +214,7 @@ TEST(PackingPicture, AtRestNothingMoves) {
   Packing<2> p = oracle::random_packing(3, 12, 4, true);
   for (auto& v : p.bodies.velocity) v = {};
   for (auto& w : p.bodies.spin) w = 0;
-  PictureOptions options;
-  options.kind = PictureKind::velocity;
-  const Drawn d = draw(p, options);
+  const Drawn d = draw(p, motion_content({p.bodies.velocity, p.bodies.spin, rich("`v`"), plain("spin"), {}, {}, {}}));
   EXPECT_TRUE(std::none_of(d.canvas.areas.begin(), d.canvas.areas.end(),
                            [](const auto& a) { return a.group == "velocities"; }));
   EXPECT_TRUE(
@@ -231,12 +224,11 @@ TEST(PackingPicture, AtRestNothingMoves) {
 // Legend and scale bars agree with the picture, and stay on the page without overlapping.
 TEST(PackingPicture, LegendIsTrueAndOnThePage) {
   const Packing<2> p = oracle::random_packing(11, 30, 50, true);
-  PictureOptions options;
-  options.kind = PictureKind::forces;
-  options.force_scale = 3;
-  options.force_scale_label = rich("`F`_{0}");
-  const PackingPicture picture(p, options);
-  const Drawn d = draw(p, options);
+  ForceOptions options;
+  options.scale = 3;
+  options.scale_label = rich("`F`_{0}");
+  const PackingPicture picture(p, forces_content(options));
+  const Drawn d = draw(p, forces_content(options));
   const double unit = d.scale * kWidthAtF0 * largest_diameter(p);  // [pt per F1]
   bool force_bar = false, length_bar = false;
   struct Span {
@@ -267,7 +259,57 @@ TEST(PackingPicture, LegendIsTrueAndOnThePage) {
   EXPECT_TRUE(length_bar);
 }
 
-TEST(PackingPicture, RefusesAnEmptyPacking) { EXPECT_THROW(PackingPicture(Packing<2>{}, {}), std::invalid_argument); }
+// A pore inside an island of a larger one is filled after it; the disks come last.
+TEST(PackingPicture, PoresFillOutsideIn) {
+  const Packing<2> p = oracle::random_packing(5, 12, 0, true);
+  const Polygon large{{{0, 0}}, {{0, 2}}, {{2, 2}}, {{2, 0}}}, small{{{.5, .5}}, {{.5, 1}}, {{1, 1}}, {{1, .5}}};
+  const Drawn d = draw(p, pores_content({{{small, 0.25, 0.3}, {large, 4, 1.2}}, true, {}}));
+  std::vector<std::pair<double, Color>> filled;  // width on the page, in order of drawing
+  for (const auto& a : d.canvas.areas)
+    if (a.group == "pores") filled.emplace_back(a.corners[2][0] - a.corners[0][0], *a.paint.fill);
+  ASSERT_GE(filled.size(), 2u);
+  EXPECT_NEAR(filled.front().first, 2 * d.scale, 1e-9);
+  EXPECT_NEAR(filled.back().first, 0.5 * d.scale, 1e-9);
+  EXPECT_EQ(filled.front().second, sequential(1));
+  EXPECT_EQ(filled.back().second, sequential(0));
+  EXPECT_TRUE(std::any_of(d.canvas.texts.begin(), d.canvas.texts.end(),
+                          [](const auto& t) { return t.plain() == "white: percolating"; }));
+}
+
+// Two hyperstatic triangles that touch, an isostatic pair, a single grain.
+TEST(PackingPicture, ClustersThatMeetDifferInColour) {
+  Packing<2> p;
+  p.bodies.resize(9);
+  for (std::size_t i = 0; i < 9; ++i) {
+    p.bodies.position[i] = {{static_cast<double>(i), 0}};
+    p.bodies.radius[i] = 0.5;
+  }
+  for (const auto& [i, j] : {std::pair{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {6, 7}}) {
+    p.links.emplace_back();
+    p.links.back().i = i, p.links.back().j = j;
+  }
+  const Drawn d = draw(p, clusters_content({{0, 0, 0, 1, 1, 1, 2, 2, -1}, {0, 0, -1, 1, 1, 2}, {true, true, false}}));
+  std::vector<Color> fill(9);
+  double left = 1e9;
+  for (const auto& disk : d.canvas.drawn_disks)
+    if (disk.group == "disks") left = std::min(left, disk.mark.center[0]);
+  for (const auto& disk : d.canvas.drawn_disks)
+    if (disk.group == "disks")
+      fill[static_cast<std::size_t>(std::lround((disk.mark.center[0] - left) / (2 * disk.mark.radius)))] =
+          *disk.paint.fill;
+  EXPECT_TRUE(fill[0] == fill[1] && fill[1] == fill[2] && fill[3] == fill[5]);
+  EXPECT_FALSE(fill[2] == fill[3]);
+  EXPECT_EQ(fill[0], blend(kCurves[0], kWhite, 0.35));
+  EXPECT_EQ(fill[6], blend(kCurves[0], kWhite, 0.75));  // meets nobody: the first colour again, pale
+  EXPECT_EQ(fill[8], kDisk);
+  int grey = 0;
+  for (const auto& s : d.canvas.drawn_segments) grey += s.group == "links" && s.color == kFaint;
+  EXPECT_EQ(grey, 1);
+}
+
+TEST(PackingPicture, RefusesAnEmptyPacking) {
+  EXPECT_THROW(PackingPicture(Packing<2>{}, grains_content()), std::invalid_argument);
+}
 
 TEST(ForceConvention, ColoursOfFigure2) {
   Link<2> link;

@@ -1,0 +1,68 @@
+// What a picture of a packing shows.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "analysis/figure/force_convention.hpp"
+#include "analysis/figure/legend.hpp"
+#include "analysis/figure/picture_pen.hpp"
+
+namespace isostat {
+
+class PictureContent {
+ public:
+  virtual ~PictureContent() = default;
+  virtual double margin(const Packing<2>&) const { return 0; }  // [length] needed around an isolated packing
+  virtual void draw(Canvas& canvas, const PicturePen& pen) const = 0;
+  virtual std::vector<LegendItem> legend(const PicturePen& pen, double em) const = 0;  // em: text size [pt]
+};
+
+// Disks, and the links between them as thin lines, distant pairs in blue.
+std::unique_ptr<PictureContent> grains_content();
+
+// Line widths in units of a, the largest diameter. Forces of order F0 are as wide as radii are (Sec. IV.B.1); the
+// mean force without cohesion is slightly above a P, and the strong chains a few times it.
+inline constexpr double kWidthAtF0 = 0.5, kWidthAtAP = 0.11;
+
+struct ForceOptions {
+  ForceConvention convention;
+  double scale = 1;                    // F1 = max(F0, a P)
+  double width_at_scale = kWidthAtF0;  // [a] line width of a force F1; kWidthAtAP where F1 = a P
+  RichText scale_label;                // its name; empty: written as a number
+  std::vector<bool> rattler;           // one a body, or none
+};
+std::unique_ptr<PictureContent> forces_content(ForceOptions options);
+
+// Arrows from the centres, and disks coloured by spin.
+struct MotionOptions {
+  std::vector<Vec2> velocity;  // one a body
+  std::vector<double> spin;
+  RichText symbol, spin_name;      // in the legend: `v`, "spin"
+  RichText speed_unit, spin_unit;  // may be empty
+  std::vector<RichText> notes;     // more legend
+};
+std::unique_ptr<PictureContent> motion_content(MotionOptions options);
+
+// Rigid clusters: one colour each, different from the neighbours'; strong where the cluster is hyperstatic, pale where
+// it is not; links between clusters grey.
+struct ClusterOptions {
+  std::vector<std::int32_t> of_grain, of_link;  // cluster, or -1
+  std::vector<bool> hyperstatic;                // one a cluster
+};
+std::unique_ptr<PictureContent> clusters_content(ClusterOptions options);
+
+// Pores under the disks, coloured by their equivalent radius; percolating void stays white.
+struct PorePatch {
+  Polygon wall;       // outer wall, in any image
+  double area = 0;    // [length^2] larger ones are drawn first
+  double radius = 0;  // [length] R_H; NaN: drawn as the smallest
+};
+struct PoreMapOptions {
+  std::vector<PorePatch> pores;
+  bool percolating = false;
+  RichText length_unit;
+};
+std::unique_ptr<PictureContent> pores_content(PoreMapOptions options);
+
+}  // namespace isostat
