@@ -47,13 +47,13 @@ class ClustersContent final : public PictureContent {
     };
     std::vector<LegendItem> items;
     if (with(true))
-      items.push_back(disk_item(em, {blend(kCurves[0], kWhite, kStrong), outline}, rich("rigid, `H` > 0")));
+      items.push_back(disk_item(em, {blend(kCurves[0], kWhite, kStrong), outline}, plain("hyperstatic cluster")));
     if (with(false))
-      items.push_back(disk_item(em, {blend(kCurves[0], kWhite, kPale), outline}, rich("rigid, `H` = 0")));
+      items.push_back(disk_item(em, {blend(kCurves[0], kWhite, kPale), outline}, plain("isostatic cluster")));
     if (std::find(options_.of_grain.begin(), options_.of_grain.end(), -1) != options_.of_grain.end())
-      items.push_back(disk_item(em, {kDisk, outline}, plain("single grain")));
+      items.push_back(disk_item(em, {kDisk, outline}, plain("single")));
     if (std::find(options_.of_link.begin(), options_.of_link.end(), -1) != options_.of_link.end())
-      items.push_back(line_item(em, kFaint, plain("between clusters")));
+      items.push_back(line_item(em, kFaint, plain("hinge")));
     return items;
   }
 

@@ -57,9 +57,9 @@ TEST_F(Figures, DrawsClustersPoresAndModes) {
     EXPECT_GE(count(content(in_folder("w.svg")), "<circle"), 4u) << what;
   }
   ASSERT_EQ(run("draw " + net + " --what clusters -o " + in_folder("c.svg")).code, 0);
-  EXPECT_NE(content(in_folder("c.svg")).find("&gt; 0"), std::string::npos);  // H = 1
+  EXPECT_NE(content(in_folder("c.svg")).find("hyperstatic cluster"), std::string::npos);  // H = 1
   ASSERT_EQ(run("draw " + cluster("triangle.net") + " --what clusters -o " + in_folder("c.svg")).code, 0);
-  EXPECT_NE(content(in_folder("c.svg")).find(" = 0"), std::string::npos);  // H = 0
+  EXPECT_NE(content(in_folder("c.svg")).find("isostatic cluster"), std::string::npos);  // H = 0
   // a triangle of pins has 9 - 6 rigid motions and 6 modes above them
   EXPECT_EQ(run("draw " + cluster("triangle.net") + " --what modes --mode 6 -o " + in_folder("m.svg")).code, 0);
   EXPECT_EQ(run("draw " + cluster("triangle.net") + " --what modes --mode 7 -o " + in_folder("n.svg")).code, 2);
