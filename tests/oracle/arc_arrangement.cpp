@@ -21,9 +21,7 @@ struct Arc {
   Name opened_by, closed_by;  // which cover ended where the arc starts, and began where it ends
 };
 
-}  // namespace
-
-std::vector<WallLoop> wall_loops(const Disks& d) {
+std::vector<std::vector<Arc>> exposed_arcs(const Disks& d) {
   const int n = static_cast<int>(d.centre.size());
   const auto centre = [&](int i) { return d.centre[static_cast<std::size_t>(i)]; };
   const auto radius = [&](int i) { return d.radius[static_cast<std::size_t>(i)]; };
@@ -68,6 +66,24 @@ std::vector<WallLoop> wall_loops(const Disks& d) {
       if (to > end) end = to, last = c.by;
     }
   }
+  return arcs;
+}
+
+}  // namespace
+
+std::vector<WallArc> wall_arcs(const Disks& d) {
+  std::vector<WallArc> out;
+  const auto arcs = exposed_arcs(d);
+  for (std::size_t i = 0; i < arcs.size(); ++i)
+    for (const auto& a : arcs[i]) out.push_back({d.centre[i], d.radius[i], a.start, a.sweep});
+  return out;
+}
+
+std::vector<WallLoop> wall_loops(const Disks& d) {
+  const int n = static_cast<int>(d.centre.size());
+  const auto centre = [&](int i) { return d.centre[static_cast<std::size_t>(i)]; };
+  const auto radius = [&](int i) { return d.radius[static_cast<std::size_t>(i)]; };
+  const auto arcs = exposed_arcs(d);
   // Where i dives under image (j, s), the wall goes on along j from where its cover by (i, -s) ends.
   std::vector<std::map<Name, std::size_t>> opened(static_cast<std::size_t>(n));
   std::vector<std::vector<bool>> done(static_cast<std::size_t>(n));

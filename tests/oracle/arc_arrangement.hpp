@@ -15,4 +15,10 @@ struct WallLoop {
 // General position is assumed (no tangencies, no three circles through one point).
 std::vector<WallLoop> wall_loops(const Disks& disks);
 
+struct WallArc {
+  Vec2 centre{};
+  double radius = 0, start = 0, sweep = 0;  // anticlockwise from `start` [rad]
+};
+std::vector<WallArc> wall_arcs(const Disks& disks);
+
 }  // namespace isostat::oracle
