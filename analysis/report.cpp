@@ -15,11 +15,19 @@ namespace isostat {
 
 const std::vector<Section>& sections() {
   static const std::vector<Section> table{
-      {"counts", counts_section, counts_tables}, {"equilibrium", equilibrium_section}, {"stress", stress_section},
-      {"forces", forces_section, forces_tables}, {"percolation", percolation_section},
-      {"rigidity", rigidity_section}, {"clusters", clusters_section, clusters_tables},
-      {"stiffness", stiffness_section}, {"moduli", moduli_section}, {"modes", modes_section, modes_tables},
+      {"counts", counts_section, counts_tables},
+      {"equilibrium", equilibrium_section},
+      {"stress", stress_section},
+      {"forces", forces_section, forces_tables},
+      {"percolation", percolation_section},
+      {"rigidity", rigidity_section},
+      {"clusters", clusters_section, clusters_tables},
+      {"stiffness", stiffness_section},
+      {"moduli", moduli_section},
+      {"modes", modes_section, modes_tables},
       {"pores", pores_section},
+      {"scattering", scattering_section},
+      {"dacf", dacf_section},
   };
   return table;
 }

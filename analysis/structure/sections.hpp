@@ -9,4 +9,10 @@ namespace isostat {
 // Pores of the union of disks; --gap-tolerance closes gaps up to it (default 0). Gilabert 2007, Sec. V.B, Eqs. 29-30.
 nlohmann::ordered_json pores_section(const AnalysisInput& input, const AnalysisOptions& options);
 
+// I(k) binned over the reciprocal lattice up to --k-max, and the fit of Eq. 28.
+nlohmann::ordered_json scattering_section(const AnalysisInput& input, const AnalysisOptions& options);
+
+// Density autocorrelation C(r), the fit of Eq. 27, and the mass-radius relation.
+nlohmann::ordered_json dacf_section(const AnalysisInput& input, const AnalysisOptions& options);
+
 }  // namespace isostat

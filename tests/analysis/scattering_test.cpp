@@ -1,0 +1,195 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "analysis/structure/correlation.hpp"
+#include "analysis/structure/intensity.hpp"
+#include "analysis/structure/scattering_section.hpp"
+#include "analysis/structure/sections.hpp"
+#include "dem/input_error.hpp"
+#include "geometry/pores.hpp"
+#include "tests/oracle/disk_packings.hpp"
+#include "tests/oracle/packing_input.hpp"
+#include "tests/oracle/union_mesh.hpp"
+
+namespace isostat {
+namespace {
+
+using oracle::Disks;
+using oracle::input_of;
+constexpr double kPi = std::numbers::pi;
+const std::string kData = ISOSTAT_DATA "/geometry/";
+
+nlohmann::json read_json(const std::string& name) {
+  std::ifstream in(kData + name);
+  return nlohmann::json::parse(in);
+}
+
+struct IntensityCase : testing::TestWithParam<const char*> {};
+TEST_P(IntensityCase, binned_curve_matches_the_checked_case) {
+  const auto expected = read_json(std::string("scatter_") + GetParam() + ".json");
+  const auto d = oracle::read_disks(kData + expected["packing"].get<std::string>());
+  const auto edges = expected["bin_edges"].get<std::vector<double>>();
+  const auto curve =
+      average_intensity(disk_transform(d.centre, d.radius, d.cell, {.k_max = expected["kmax"].get<double>()}), edges);
+  std::size_t row = 0;  // the case leaves empty bins out
+  for (std::size_t b = 0; b < curve.modes.size(); ++b) {
+    if (curve.modes[b] == 0) {
+      EXPECT_TRUE(std::isnan(curve.intensity[b]));
+      continue;
+    }
+    ASSERT_LT(row, expected["k"].size());
+    EXPECT_EQ(curve.modes[b], expected["count"][row].get<std::int64_t>());
+    EXPECT_NEAR(curve.k[b], expected["k"][row].get<double>(), 1e-12);
+    EXPECT_NEAR(curve.intensity[b] / expected["I"][row].get<double>(), 1, 1e-7);
+    EXPECT_NEAR(curve.sigma[b] / expected["sem"][row].get<double>(), 1, 1e-6);
+    ++row;
+  }
+  EXPECT_EQ(row, expected["k"].size());
+}
+INSTANTIATE_TEST_SUITE_P(checked, IntensityCase, testing::Values("rsa60", "foam24"));
+
+TEST(scattering, agrees_with_the_papers_mesh_within_its_error) {
+  const auto d = oracle::rsa_disks(60, {10, 9}, 0.25, 0.5, 2);
+  const auto mesh = oracle::union_mesh(d.centre, d.radius, d.cell, 0.01);
+  const auto t = disk_transform(d.centre, d.radius, d.cell, {.k_max = 8});
+  for (const auto& [mx, my] : {std::pair{1, 0}, {2, 3}, {5, -4}, {0, 7}}) {
+    std::complex<double> sum = 0;
+    for (int y = 0; y < mesh.ny; ++y)
+      for (int x = 0; x < mesh.nx; ++x)
+        if (mesh.covered[std::size_t(y) * std::size_t(mesh.nx) + std::size_t(x)])
+          sum +=
+              std::polar(mesh.step[0] * mesh.step[1], -2 * kPi * (mx * (x + 0.5) / mesh.nx + my * (y + 0.5) / mesh.ny));
+    EXPECT_NEAR(std::abs(sum - t.at(mx, my)), 0, 5e-3);
+  }
+}
+
+TEST(scattering, porod_tail) {
+  // Separate disks: I(k) k^3 averages to 2 perimeter / A.
+  const auto d = oracle::rsa_disks(400, {22, 22}, 0.2, 0.5, 3);
+  double perimeter = 0;
+  for (const double r : d.radius) perimeter += 2 * kPi * r;
+  const auto t = disk_transform(d.centre, d.radius, d.cell, {.k_max = 90});
+  const auto curve = average_intensity(t, {60, 90});
+  const double tail = curve.intensity[0] * (90.0 * 90 - 60.0 * 60) / 2 / (1 / 60.0 - 1 / 90.0);  // k^-3 over the ring
+  EXPECT_NEAR(tail / (2 * perimeter / d.cell.measure()), 1, 0.03);
+}
+
+TEST(scattering, section_has_the_keys_of_the_contract) {
+  const auto json = scattering_section(input_of(oracle::rsa_disks(300, {22, 17}, 0.25, 0.5, 1)), {});
+  const auto bins = json["k_edges"].size() - 1;
+  for (const char* key : {"k", "I", "sigma", "modes"}) EXPECT_EQ(json[key].size(), bins) << key;
+  EXPECT_LE(json["k_edges"][0].get<double>(), 2 * kPi / 22);
+  for (const char* key :
+       {"d_F", "d_F_error", "xi", "xi_error", "amplitude", "constant", "chi2_per_dof", "window", "message"})
+    EXPECT_TRUE(json["fit"].contains(key)) << key;
+  std::int64_t modes = 0;  // all modes below k_max but those in no bin
+  for (const auto& m : json["modes"]) modes += m.get<std::int64_t>();
+  const double k_max = json["k_edges"].back().get<double>();
+  EXPECT_NEAR(double(modes), 22 * 17 * k_max * k_max / 8 / kPi, 0.02 * double(modes));
+  AnalysisOptions options;
+  options.k_max = 5;
+  EXPECT_DOUBLE_EQ(scattering_section(input_of(oracle::rsa_disks(50, {12, 10}, 0.25, 0.5, 1)), options)["k_edges"]
+                       .back()
+                       .get<double>(),
+                   5);
+}
+
+TEST(scattering, refuses_what_it_does_not_apply_to) {
+  const auto d = oracle::rsa_disks(20, {7, 7}, 0.25, 0.5, 1);
+  auto open = input_of(d);
+  open.packing.cell.reset();
+  EXPECT_THROW(scattering_section(open, {}), InputError);
+  EXPECT_THROW(dacf_section(open, {}), InputError);
+  AnalysisOptions options;
+  options.k_max = 1e7;
+  EXPECT_THROW(scattering_section(input_of(d), options), InputError);
+  options.k_max = 0.1;
+  EXPECT_THROW(scattering_section(input_of(d), options), InputError);
+  EXPECT_THROW(scattering_section(input_of(Disks{{{1, 1}}, {}, {}}), {}), InputError);
+}
+
+TEST(scattering, samples_of_different_size_line_up_and_pool) {
+  std::vector<AnalysisInput> inputs;
+  for (const double side : {15.0, 22.0, 40.0})
+    inputs.push_back(input_of(oracle::rsa_disks(std::size_t(side * side / 2), {side, side}, 0.25, 0.5, 1)));
+  AnalysisOptions options;
+  options.k_max = 10;
+  std::vector<nlohmann::ordered_json> sections;
+  std::int64_t modes = 0;
+  for (const auto& input : inputs) {
+    sections.push_back(scattering_section(input, options));
+    for (const auto& m : sections.back()["modes"]) modes += m.get<std::int64_t>();
+  }
+  EXPECT_NE(sections[0]["k"].size(), sections[2]["k"].size());
+  ASSERT_TRUE(align_scattering(sections));
+  for (const auto& s : sections) {
+    EXPECT_EQ(s["k_edges"], sections[2]["k_edges"]);
+    EXPECT_EQ(s["I"].size(), s["k_edges"].size() - 1);
+  }
+  const auto pooled = pooled_scattering(sections), direct = scattering_ensemble(inputs, options);
+  std::int64_t together = 0;
+  for (std::size_t b = 0; b < pooled["I"].size(); ++b) {
+    together += pooled["modes"][b].get<std::int64_t>();
+    EXPECT_EQ(pooled["modes"][b], direct["modes"][b]);
+    if (pooled["modes"][b].get<int>() > 1) {
+      EXPECT_NEAR(pooled["I"][b].get<double>(), direct["I"][b].get<double>(), 1e-12 * direct["I"][b].get<double>());
+      EXPECT_NEAR(pooled["sigma"][b].get<double>(), direct["sigma"][b].get<double>(),
+                  1e-9 * direct["I"][b].get<double>());
+    }
+  }
+  EXPECT_EQ(together, modes);
+  options.k_max = 9;
+  sections.push_back(scattering_section(inputs[0], options));
+  EXPECT_FALSE(align_scattering(sections));
+}
+
+TEST(dacf, matches_the_checked_case) {
+  const auto expected = read_json("dacf_rsa60.json");
+  const auto d = oracle::read_disks(kData + expected["packing"].get<std::string>());
+  const auto r = expected["r"].get<std::vector<double>>();
+  const auto curve = density_correlation(d.centre, d.radius, d.cell, r, 250);
+  EXPECT_NEAR(curve.solid_fraction, expected["phi"].get<double>(), 1e-7);
+  for (std::size_t n = 0; n < r.size(); ++n) EXPECT_NEAR(curve.c[n], expected["C"][n].get<double>(), 3e-6) << r[n];
+  const auto coarse = density_correlation(d.centre, d.radius, d.cell, r);
+  for (std::size_t n = 0; n < r.size(); ++n) EXPECT_NEAR(coarse.c[n], expected["C"][n].get<double>(), 1e-5) << r[n];
+}
+
+TEST(dacf, exact_invariants) {
+  for (const auto& d : {oracle::rsa_disks(300, {20, 18}, 0.25, 0.5, 4), oracle::chain_disks(8, {25, 20}, 1e-4, 2)}) {
+    const double h = 1e-3;
+    const auto curve = density_correlation(d.centre, d.radius, d.cell, {0, h, 2 * h});
+    const auto pores = find_pores(d.centre, d.radius, d.cell);
+    // Truncation: one contact of diameters about 1/2 a disk, see density_correlation.
+    const double contacts = static_cast<double>(d.centre.size()) / d.cell.measure();
+    EXPECT_NEAR(curve.c[0], pores.covered_area / d.cell.measure(), 0.75 * std::pow(curve.k_cut, -1.5) * 0.5 * contacts);
+    const double slope = -pores.perimeter / (kPi * d.cell.measure());
+    EXPECT_NEAR((curve.c[1] - curve.c[0]) / h, slope, 0.02 * std::abs(slope));
+  }
+}
+
+TEST(dacf, mass_is_the_integral_of_the_correlation) {
+  const auto d = oracle::rsa_disks(200, {16, 15}, 0.25, 0.5, 5);
+  std::vector<double> r;
+  for (int n = 0; n <= 700; ++n) r.push_back(0.01 * n);
+  const auto curve = density_correlation(d.centre, d.radius, d.cell, r);
+  double sum = 0;
+  for (std::size_t n = 1; n < r.size(); ++n) sum += 0.01 * kPi * (r[n] * curve.c[n] + r[n - 1] * curve.c[n - 1]);
+  EXPECT_NEAR(curve.mass.back(), sum / curve.solid_fraction, 1e-4 * curve.mass.back());
+}
+
+TEST(dacf, section_has_its_keys) {
+  const auto json = dacf_section(input_of(oracle::chain_disks(8, {25, 20}, 1e-4, 2)), {});
+  EXPECT_EQ(json["r"].size(), json["C"].size());
+  EXPECT_EQ(json["r"][0], 0.0);
+  EXPECT_LT(json["r"].back().get<double>(), 10);
+  EXPECT_TRUE(json["fit"].contains("d_F"));
+  EXPECT_EQ(json["mass_radius"]["local_dimension"].size(), json["r"].size());
+  EXPECT_NEAR(json["mass_radius"]["local_dimension"][1].get<double>(), 2, 0.1);
+}
+
+}  // namespace
+}  // namespace isostat
