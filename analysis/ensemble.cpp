@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+
+#include "analysis/structure/merge_curves.hpp"
 
 namespace isostat {
 namespace {
@@ -157,9 +160,24 @@ Json merge_arrays(const std::string& key, const Values& values) {
   return json;
 }
 
+// Curves over k or r, whose lengths follow the size of the cell.
+std::optional<Json> merge_curves(const std::string& key, const Values& some) {
+  if (!all_of(some, [](const Json& v) { return v.is_object(); })) return std::nullopt;
+  std::vector<Json> sections;
+  for (const Json* v : some) sections.push_back(*v);
+  if (!align_curves(key, sections)) return std::nullopt;
+  Values aligned;
+  for (const Json& s : sections) aligned.push_back(&s);
+  Json merged = merge_objects(aligned);
+  add_pooled(key, sections, merged);
+  return merged;
+}
+
 Json merge(const std::string& key, const Values& values) {
   const Values some = defined(values);
   if (some.empty()) return Json();
+  if (key == "scattering" || key == "dacf")
+    if (auto merged = merge_curves(key, some)) return *merged;
   if (key.ends_with("edges") && all_equal(values)) return *some.front();
   if (all_of(some, [](const Json& v) { return v.is_boolean(); }) && all_equal(some)) return *some.front();
   if (all_of(some, [](const Json& v) { return v.is_number() || v.is_boolean(); })) return merge_numbers(values);

@@ -1,12 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <stdexcept>
 
 #include "analysis/structure/correlation.hpp"
 #include "analysis/structure/fit_json.hpp"
+#include "analysis/structure/scattering_section.hpp"
 #include "analysis/structure/sections.hpp"
 #include "dem/input_error.hpp"
 #include "geometry/pores.hpp"
@@ -50,7 +49,7 @@ Json mass_radius(const CorrelationCurve& curve, double low, double high) {
   }
   json["M"] = curve.mass;
   json["local_dimension"] = slope;
-  json["dimension"] = n > 1 ? (n * sxy - sx * sy) / (n * sxx - sx * sx) : std::numeric_limits<double>::quiet_NaN();
+  json["dimension"] = n > 1 ? Json((n * sxy - sx * sy) / (n * sxx - sx * sx)) : Json();
   json["window"] = {low, high};
   return json;
 }
@@ -62,7 +61,7 @@ Json dacf_section(const AnalysisInput& input, const AnalysisOptions&) {
   const auto& b = packing.bodies;
   if (!packing.cell) refuse_section(input, "dacf", "needs a periodic cell: C(r) averages over it");
   if (b.size() == 0) refuse_section(input, "dacf", "needs at least one grain");
-  const double diameter = 2 * *std::max_element(b.radius.begin(), b.radius.end());
+  const double diameter = grain_size(input);
   const double shorter = std::min(packing.cell->length[0], packing.cell->length[1]);
   const auto curve = density_correlation(b.position, b.radius, *packing.cell, distances(diameter, shorter / 2));
   Json json;

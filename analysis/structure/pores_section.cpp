@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/network/histogram.hpp"
+#include "analysis/structure/fit_json.hpp"
 #include "analysis/structure/sections.hpp"
 #include "geometry/pores.hpp"
 
@@ -25,8 +26,9 @@ nlohmann::ordered_json as_json(const Pore& p, const Pores& all) {
     return json;
   }
   const Vec2 c = all.cell.wrap(p.centroid);
-  json = {{"area", p.area},           {"x", c[0]},           {"y", c[1]}, {"gyration", p.gyration},
-          {"R", p.equivalent_radius}, {"percolating", false}};
+  json = {
+      {"area", p.area},      {"x", c[0]}, {"y", c[1]}, {"gyration", p.gyration}, {"R", defined(p.equivalent_radius)},
+      {"percolating", false}};
   return json;
 }
 
@@ -69,7 +71,7 @@ nlohmann::ordered_json pores_section(const AnalysisInput& input, const AnalysisO
     list.push_back(as_json(p, pores));
   }
   json["count"] = pores.pores.size();
-  json["mean_radius_weighted"] = mean_radius_weighted(pores.pores);
+  json["mean_radius_weighted"] = defined(mean_radius_weighted(pores.pores));
   json["percolating"] = percolating;
   json["gap_tolerance"] = tolerance;
   json["covered_area"] = pores.covered_area;

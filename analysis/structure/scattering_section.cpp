@@ -17,27 +17,15 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr double kPi = std::numbers::pi;
 
-double number_or_nan(const Json& j) {
-  return j.is_number() ? j.get<double>() : std::numeric_limits<double>::quiet_NaN();
-}
-
-std::vector<double> numbers(const Json& j) {
-  std::vector<double> out;
-  for (const auto& v : j) out.push_back(number_or_nan(v));
-  return out;
-}
-
-IntensityCurve curve_of(const Json& j) {
-  return {numbers(j["k_edges"]), numbers(j["k"]), numbers(j["I"]), numbers(j["sigma"]),
-          j["modes"].get<std::vector<std::int64_t>>()};
-}
-
 }  // namespace
 
-double fit_limit(const AnalysisInput& input) {
-  const auto& radius = input.planar("scattering").bodies.radius;
-  return 2 * kPi / (2 * *std::max_element(radius.begin(), radius.end()));
+double grain_size(const AnalysisInput& input) {
+  const auto& radius = input.packing.bodies.radius;
+  const double largest = 2 * *std::max_element(radius.begin(), radius.end());
+  return input.state ? std::max(1.0, largest) : largest;
 }
+
+double fit_limit(const AnalysisInput& input) { return 2 * kPi / grain_size(input); }
 
 IntensityCurve scattering_curve(const AnalysisInput& input, double k_max, double k_min) {
   const auto& packing = input.planar("scattering");
@@ -83,40 +71,6 @@ Json scattering_ensemble(std::span<const AnalysisInput> inputs, const AnalysisOp
   if (k_max == 0) k_max = 2 * limit;
   std::vector<IntensityCurve> curves;
   for (const auto& input : inputs) curves.push_back(scattering_curve(input, k_max, k_min));
-  const auto pooled = pooled_intensity(curves);
-  return scattering_json(pooled, fit_curve(pooled, 0, limit), limit);
-}
-
-bool align_scattering(std::vector<Json>& sections) {
-  std::size_t longest = 0;
-  for (std::size_t n = 0; n < sections.size(); ++n)
-    if (sections[n]["k_edges"].size() > sections[longest]["k_edges"].size()) longest = n;
-  const Json edges = sections[longest]["k_edges"];
-  for (const auto& s : sections) {
-    const auto offset = edges.size() - s["k_edges"].size();
-    for (std::size_t k = 0; k < s["k_edges"].size(); ++k)
-      if (std::abs(s["k_edges"][k].get<double>() / edges[k + offset].get<double>() - 1) > 1e-12) return false;
-  }
-  for (auto& s : sections) {
-    const auto missing = static_cast<std::ptrdiff_t>(edges.size() - s["k_edges"].size());
-    for (const char* key : {"k", "I", "sigma", "modes"}) {
-      Json padded = Json::array();
-      for (std::ptrdiff_t n = 0; n < missing; ++n) padded.push_back(std::string(key) == "modes" ? Json(0) : Json());
-      for (const auto& v : s[key]) padded.push_back(v);
-      s[key] = std::move(padded);
-    }
-    s["k_edges"] = edges;
-  }
-  return true;
-}
-
-Json pooled_scattering(const std::vector<Json>& sections) {
-  std::vector<IntensityCurve> curves;
-  double limit = std::numeric_limits<double>::infinity();
-  for (const auto& s : sections) {
-    curves.push_back(curve_of(s));
-    limit = std::min(limit, number_or_nan(s["fit"]["k_limit"]));
-  }
   const auto pooled = pooled_intensity(curves);
   return scattering_json(pooled, fit_curve(pooled, 0, limit), limit);
 }

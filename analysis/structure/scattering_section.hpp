@@ -9,7 +9,11 @@
 
 namespace isostat {
 
-// Curve of one planar periodic input; throws InputError otherwise. k_max 0: 4 pi / (largest diameter). Edges are
+// The length a: 1 in a state (reduced units, so that all samples share it), else the largest diameter. At least one
+// grain.
+double grain_size(const AnalysisInput& input);
+
+// Curve of one planar periodic input; throws InputError otherwise. k_max 0: 4 pi / a. Edges are
 // anchored at k_max (20 a decade) down to below 2 pi / (longest edge of the cell), or to below k_min if that is given.
 IntensityCurve scattering_curve(const AnalysisInput& input, double k_max, double k_min = 0);
 
@@ -22,11 +26,5 @@ nlohmann::ordered_json scattering_json(const IntensityCurve& curve, const Fracta
 
 // Several states, whatever their sizes, in one curve on common edges; all modes count alike.
 nlohmann::ordered_json scattering_ensemble(std::span<const AnalysisInput> inputs, const AnalysisOptions& options);
-
-// Merged scattering sections of several reports: common edges (shorter arrays padded by empty bins at low k, so that
-// reports of cells of different size line up) and the fit of the pooled curve as "pooled". Returns false and leaves the
-// sections alone if their k_max differ.
-bool align_scattering(std::vector<nlohmann::ordered_json>& sections);
-nlohmann::ordered_json pooled_scattering(const std::vector<nlohmann::ordered_json>& sections);
 
 }  // namespace isostat

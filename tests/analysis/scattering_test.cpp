@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "analysis/ensemble.hpp"
 #include "analysis/structure/correlation.hpp"
 #include "analysis/structure/intensity.hpp"
 #include "analysis/structure/scattering_section.hpp"
@@ -112,39 +113,49 @@ TEST(scattering, refuses_what_it_does_not_apply_to) {
   EXPECT_THROW(scattering_section(input_of(Disks{{{1, 1}}, {}, {}}), {}), InputError);
 }
 
+// Reports of samples of different size merged as `analyze` merges them.
 TEST(scattering, samples_of_different_size_line_up_and_pool) {
   std::vector<AnalysisInput> inputs;
-  for (const double side : {15.0, 22.0, 40.0})
-    inputs.push_back(input_of(oracle::rsa_disks(std::size_t(side * side / 2), {side, side}, 0.25, 0.5, 1)));
+  std::vector<nlohmann::ordered_json> reports;
   AnalysisOptions options;
   options.k_max = 10;
-  std::vector<nlohmann::ordered_json> sections;
   std::int64_t modes = 0;
-  for (const auto& input : inputs) {
-    sections.push_back(scattering_section(input, options));
-    for (const auto& m : sections.back()["modes"]) modes += m.get<std::int64_t>();
+  for (const double side : {15.0, 22.0, 40.0}) {
+    auto d = oracle::rsa_disks(std::size_t(side * side / 2), {side, side}, 0.25, 0.5, 1);
+    d.radius[0] = 0.5;  // one grain size for all
+    inputs.push_back(input_of(d));
+    reports.push_back(analyze(inputs.back(), options, {"scattering", "dacf"}));
+    for (const auto& m : reports.back()["scattering"]["modes"]) modes += m.get<std::int64_t>();
   }
-  EXPECT_NE(sections[0]["k"].size(), sections[2]["k"].size());
-  ASSERT_TRUE(align_scattering(sections));
-  for (const auto& s : sections) {
-    EXPECT_EQ(s["k_edges"], sections[2]["k_edges"]);
-    EXPECT_EQ(s["I"].size(), s["k_edges"].size() - 1);
-  }
-  const auto pooled = pooled_scattering(sections), direct = scattering_ensemble(inputs, options);
+  const auto longest = reports[2]["scattering"]["k_edges"];
+  EXPECT_NE(reports[0]["scattering"]["k_edges"].size(), longest.size());
+  const auto merged = merge_reports(reports);
+  const auto &s = merged["scattering"], &pooled = s["pooled"];
+  EXPECT_EQ(s["k_edges"], longest);
+  ASSERT_EQ(s["I"].size(), longest.size() - 1);
+  const auto last = s["I"].size() - 1;
+  EXPECT_NEAR(s["I"][last]["mean"].get<double>(),
+              (reports[0]["scattering"]["I"].back().get<double>() + reports[1]["scattering"]["I"].back().get<double>() +
+               reports[2]["scattering"]["I"].back().get<double>()) /
+                  3,
+              1e-15);
+  EXPECT_EQ(merged["dacf"]["C"].size(), reports[2]["dacf"]["C"].size());
+
+  const auto direct = scattering_ensemble(inputs, options);
   std::int64_t together = 0;
   for (std::size_t b = 0; b < pooled["I"].size(); ++b) {
     together += pooled["modes"][b].get<std::int64_t>();
     EXPECT_EQ(pooled["modes"][b], direct["modes"][b]);
-    if (pooled["modes"][b].get<int>() > 1) {
-      EXPECT_NEAR(pooled["I"][b].get<double>(), direct["I"][b].get<double>(), 1e-12 * direct["I"][b].get<double>());
-      EXPECT_NEAR(pooled["sigma"][b].get<double>(), direct["sigma"][b].get<double>(),
-                  1e-9 * direct["I"][b].get<double>());
-    }
+    if (pooled["modes"][b].get<int>() < 2) continue;
+    EXPECT_NEAR(pooled["I"][b].get<double>(), direct["I"][b].get<double>(), 1e-12 * direct["I"][b].get<double>());
+    EXPECT_NEAR(pooled["sigma"][b].get<double>(), direct["sigma"][b].get<double>(),
+                1e-9 * direct["I"][b].get<double>());
   }
   EXPECT_EQ(together, modes);
-  options.k_max = 9;
-  sections.push_back(scattering_section(inputs[0], options));
-  EXPECT_FALSE(align_scattering(sections));
+
+  options.k_max = 9;  // other bins: kept apart
+  reports[0] = analyze(inputs[0], options, {"scattering"});
+  EXPECT_FALSE(merge_reports(reports)["scattering"].contains("pooled"));
 }
 
 TEST(dacf, matches_the_checked_case) {
