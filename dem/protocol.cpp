@@ -6,7 +6,6 @@
 #include <ctime>
 #include <numbers>
 
-#include "dem/clusters.hpp"
 #include "dem/random.hpp"
 
 namespace isostat {
@@ -25,22 +24,17 @@ double cpu_seconds(int threads) {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-// Order-independent hash of the set of contacts, by grain ids.
-std::uint64_t contact_set_hash(const Packing<2>& p) {
-  auto mix = [](std::uint64_t x) {
-    x = (x ^ (x >> 31)) * 0x9E3779B97F4A7C15u;
-    x = (x ^ (x >> 29)) * 0xBF58476D1CE4E5B9u;
-    return x ^ (x >> 32);
-  };
-  std::uint64_t sum = 0;
-  for (const Link<2>& l : p.links) {
-    if (l.kind == LinkKind::distant) continue;
-    const auto i = static_cast<std::uint64_t>(p.bodies.id[static_cast<std::size_t>(l.i)]);
-    const auto j = static_cast<std::uint64_t>(p.bodies.id[static_cast<std::size_t>(l.j)]);
-    sum += mix(mix(std::min(i, j)) + std::max(i, j));
-  }
-  return sum;
+// Contacts that carry a force, or with cohesion all of them. Without it the contacts of rattlers come and go.
+std::size_t loaded_contacts(const State& s) {
+  return static_cast<std::size_t>(
+      std::count_if(s.packing.links.begin(), s.packing.links.end(), [&s](const Link<2>& l) {
+        return l.kind != LinkKind::distant &&
+               (s.law.attraction > 0 || l.normal_force > kLoadTolerance * s.certificate.force_scale);
+      }));
 }
+
+constexpr double kCarried = 0.5;  // [-] of the imposed stress that may be missing when the finishing drag comes on
+constexpr double kNetwork = 0.9;  // [links a grain] a connected network has one at least; rattlers have none
 
 // Maxwell velocities with the drift of the centre of mass removed and the rms of |v| equal to V0; spins zero.
 void agitate(State& s, double rms) {
@@ -79,7 +73,7 @@ void open_stage(State& s, const StageScene& stage) {
   s.progress.started = true;
   s.progress.start_time = s.time;
   s.progress.drag_on = false;
-  s.progress.contacts_changed_at = s.time;
+  s.progress.quiet_since = s.time;
   s.cell_motion.reference_length = s.packing.cell->length;
   s.cell_motion.strain_rate = {};
   s.imposed_pressure = stage.pressure;
@@ -223,19 +217,18 @@ class StageRun {
     return false;
   }
 
-  // The finishing drag comes on when only creep is left: the stress is what it should be, no grain or cluster is in
-  // flight (with cohesion: all are one cluster), and the kinetic criterion is met or the contacts have not changed for
-  // finish.quiet_time. Earlier it would stop the very motions that make the packing: at the start of a compression the
-  // kinetic criterion is met too.
+  // The finishing drag comes on when only creep is left: there is a network (as many loaded contacts as grains), it
+  // carries most of the imposed stress, and the kinetic criterion has been met for finish.quiet_time. Earlier it would
+  // stop the very motions that make the packing: when a compression begins nothing moves fast either.
   void update_drag() {
-    const std::uint64_t hash = contact_set_hash(s_.packing);
-    if (hash != s_.progress.contacts_hash) s_.progress.contacts_hash = hash, s_.progress.contacts_changed_at = s_.time;
-    if (s_.scene.finish.method != Finish::drag || s_.progress.drag_on) return;
     const Certificate& c = s_.certificate;
-    const bool slow = c.kinetic_energy_per_grain < c.tolerance_kinetic;
-    const bool quiet = s_.time - s_.progress.contacts_changed_at >= s_.scene.finish.quiet_time;
-    if (!(slow || quiet) || !(c.pressure_error < c.tolerance_pressure)) return;
-    if (s_.law.attraction > 0 ? count_clusters(s_.packing) > 1 : s_.packing.links.empty()) return;
+    const double carried = std::max(kCarried * s_.imposed_pressure.value_or(0), 10 * c.tolerance_pressure * c.force_scale);
+    const bool network =
+        static_cast<double>(loaded_contacts(s_)) >= kNetwork * static_cast<double>(s_.packing.bodies.size()) &&
+        c.pressure_error * c.force_scale < carried;
+    if (!network || !(c.kinetic_energy_per_grain < c.tolerance_kinetic)) s_.progress.quiet_since = s_.time;
+    if (s_.scene.finish.method != Finish::drag || s_.progress.drag_on) return;
+    if (s_.time - s_.progress.quiet_since < s_.scene.finish.quiet_time) return;
     s_.progress.drag_on = true;
     solver_.set_drag(s_.scene.finish.drag);
   }

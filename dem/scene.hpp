@@ -64,9 +64,8 @@ enum class Finish { none, drag };
 struct FinishScene {
   Finish method = Finish::none;
   double drag = 0.5;          // [1/T0] rate of the global drag -drag * m * v
-  double quiet_time = 100.0;  // [T0] switch on when the set of contacts has not changed for so long,
-                              // or as soon as the kinetic criterion is met
-  friend bool operator==(const FinishScene&, const FinishScene&) = default;
+  double quiet_time = 30.0;    // [T0] switch on when a network that carries the stress has met the kinetic criterion
+                               // for so long
 };
 
 // [[stage]]: one step of the history of a sample.

@@ -274,7 +274,7 @@ std::vector<SceneKey> make_table() {
        "",
        has_drag,
        "finish.method = \"drag\"",
-       "The drag starts when the set of contacts has not changed for so long, or once the kinetic criterion is met."},
+       "The drag starts when the kinetic criterion has been met for so long, in a network that carries the imposed stress."},
 
       {"stage.pressure",
        in<&S::stages, &StageScene::pressure>,

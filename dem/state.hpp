@@ -52,8 +52,7 @@ struct StageProgress {
   double start_time = 0;            // [T0] when the current stage began
   bool started = false;             // the stage's opening actions (velocities, reference length) are done
   bool drag_on = false;             // the finishing drag acts
-  double contacts_changed_at = 0;   // [T0] last time the set of contacts changed, as seen by the checks
-  std::uint64_t contacts_hash = 0;  // of the set of contacts at the last check
+  double quiet_since = 0;           // [T0] since when only creep has been left, as seen by the checks
 };
 
 // The three criteria of Gilabert 2007, Sec. II.D, evaluated from static forces.

@@ -96,7 +96,7 @@ Broken check_numbers(const State& s) {
     return StateFault{"cell", "a number that is not finite"};
   if (s.progress.stage < 0 || static_cast<std::size_t>(s.progress.stage) > s.scene.stages.size())
     return StateFault{"progress", "stage is not one of the scene's"};
-  if (!finite(s.progress.start_time) || !finite(s.progress.contacts_changed_at))
+  if (!finite(s.progress.start_time) || !finite(s.progress.quiet_since))
     return StateFault{"progress", "a time that is not a finite number"};
   return std::nullopt;
 }

@@ -130,13 +130,12 @@ void transfer_law(Io& io, LawParameters& law) {
 
 template <class Io>
 void transfer_progress(Io& io, StageProgress& progress) {
-  auto& [stage, start_time, started, drag_on, contacts_changed_at, contacts_hash] = progress;
+  auto& [stage, start_time, started, drag_on, quiet_since] = progress;
   io.value("/progress", "stage", stage);
   io.value("/progress", "start_time", start_time);
   io.value("/progress", "started", started);
   io.value("/progress", "drag_on", drag_on);
-  io.value("/progress", "contacts_changed_at", contacts_changed_at);
-  io.value("/progress", "contacts_hash", contacts_hash);
+  io.value("/progress", "quiet_since", quiet_since);
 }
 
 template <class Io>

@@ -180,8 +180,7 @@ void expect_equal(const State& a, const State& b) {
   EXPECT_SAME(progress.start_time);
   EXPECT_SAME(progress.started);
   EXPECT_SAME(progress.drag_on);
-  EXPECT_SAME(progress.contacts_changed_at);
-  EXPECT_EQ(a.progress.contacts_hash, b.progress.contacts_hash);
+  EXPECT_SAME(progress.quiet_since);
   EXPECT_SAME(ledger.viscous);
   EXPECT_SAME(ledger.sliding);
   EXPECT_SAME(ledger.rolling);
