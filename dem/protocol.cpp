@@ -26,11 +26,10 @@ double cpu_seconds(int threads) {
 
 // Contacts that carry a force, or with cohesion all of them. Without it the contacts of rattlers come and go.
 std::size_t loaded_contacts(const State& s) {
-  return static_cast<std::size_t>(
-      std::count_if(s.packing.links.begin(), s.packing.links.end(), [&s](const Link<2>& l) {
-        return l.kind != LinkKind::distant &&
-               (s.law.attraction > 0 || l.normal_force > kLoadTolerance * s.certificate.force_scale);
-      }));
+  return static_cast<std::size_t>(std::count_if(s.packing.links.begin(), s.packing.links.end(), [&s](const Link<2>& l) {
+    return l.kind != LinkKind::distant &&
+           (s.law.attraction > 0 || l.normal_force > kLoadTolerance * s.certificate.force_scale);
+  }));
 }
 
 constexpr double kCarried = 0.5;  // [-] of the imposed stress that may be missing when the finishing drag comes on
@@ -222,7 +221,8 @@ class StageRun {
   // stop the very motions that make the packing: when a compression begins nothing moves fast either.
   void update_drag() {
     const Certificate& c = s_.certificate;
-    const double carried = std::max(kCarried * s_.imposed_pressure.value_or(0), 10 * c.tolerance_pressure * c.force_scale);
+    const double carried =
+        std::max(kCarried * s_.imposed_pressure.value_or(0), 10 * c.tolerance_pressure * c.force_scale);
     const bool network =
         static_cast<double>(loaded_contacts(s_)) >= kNetwork * static_cast<double>(s_.packing.bodies.size()) &&
         c.pressure_error * c.force_scale < carried;

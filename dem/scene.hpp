@@ -63,9 +63,9 @@ enum class Finish { none, drag };
 // [finish]: what ends a stage faster than the bare law does; "none" is the paper.
 struct FinishScene {
   Finish method = Finish::none;
-  double drag = 0.5;          // [1/T0] rate of the global drag -drag * m * v
-  double quiet_time = 30.0;    // [T0] switch on when a network that carries the stress has met the kinetic criterion
-                               // for so long
+  double drag = 0.5;         // [1/T0] rate of the global drag -drag * m * v
+  double quiet_time = 10.0;  // [T0] switch on when a network that carries the stress has met the kinetic criterion
+                             // for so long
 };
 
 // [[stage]]: one step of the history of a sample.

@@ -274,7 +274,8 @@ std::vector<SceneKey> make_table() {
        "",
        has_drag,
        "finish.method = \"drag\"",
-       "The drag starts when the kinetic criterion has been met for so long, in a network that carries the imposed stress."},
+       "The drag starts when the kinetic criterion has been met for so long, in a network that carries the imposed "
+       "stress."},
 
       {"stage.pressure",
        in<&S::stages, &StageScene::pressure>,

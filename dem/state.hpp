@@ -48,11 +48,11 @@ struct EnergyLedger {
 
 // Where the run stands in the scene's stages.
 struct StageProgress {
-  std::int32_t stage = 0;           // index into Scene::stages; == size: finished
-  double start_time = 0;            // [T0] when the current stage began
-  bool started = false;             // the stage's opening actions (velocities, reference length) are done
-  bool drag_on = false;             // the finishing drag acts
-  double quiet_since = 0;           // [T0] since when only creep has been left, as seen by the checks
+  std::int32_t stage = 0;  // index into Scene::stages; == size: finished
+  double start_time = 0;   // [T0] when the current stage began
+  bool started = false;    // the stage's opening actions (velocities, reference length) are done
+  bool drag_on = false;    // the finishing drag acts
+  double quiet_since = 0;  // [T0] since when only creep has been left, as seen by the checks
 };
 
 // The three criteria of Gilabert 2007, Sec. II.D, evaluated from static forces.

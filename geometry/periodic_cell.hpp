@@ -24,7 +24,8 @@ struct PeriodicCell {
   // Shift of the image of j nearest to i, from the raw separation r_j - r_i.
   ImageShift<D> nearest_image(const Vec<D>& separation) const {
     ImageShift<D> s{};
-    for (int k = 0; k < D; ++k) s[static_cast<std::size_t>(k)] = -static_cast<int>(std::lround(separation[k] / length[k]));
+    for (int k = 0; k < D; ++k)
+      s[static_cast<std::size_t>(k)] = -static_cast<int>(std::lround(separation[k] / length[k]));
     return s;
   }
 

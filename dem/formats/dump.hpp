@@ -26,7 +26,7 @@ std::string links_dump_path(std::string_view path);
 // boundary ("pp"); a cell periodic along some of the packing's axes only, or tilted, is refused.
 struct DumpFrame {
   TextTable table;
-  std::deque<std::string> owned;  // text of converted cells that the table views; stays put when moved
+  std::deque<std::string> owned;           // text of converted cells that the table views; stays put when moved
   std::optional<std::vector<double>> box;  // [length] three edges
 };
 DumpFrame parse_dump(std::string_view text, const std::string& path);
