@@ -107,8 +107,6 @@ void measure(const char* kind, const oracle::Disks& d, bool slow_ways) {
     row("mesh", mesh, timed(1, [&] { return average_intensity(by_mesh(d, k_max, 1 / mesh), edges); }));
 }
 
-}  // namespace
-
 // Triangular lattice of touching disks, shaken by 1e-3: half of the pairs overlap, as contacts do.
 oracle::Disks contacts(int n) {
   oracle::Disks d = oracle::poisson_disks(std::size_t(n) * std::size_t(n), {1, 1}, 0.5, 0.5, 1);
@@ -120,6 +118,8 @@ oracle::Disks contacts(int n) {
     }
   return d;
 }
+
+}  // namespace
 
 int main(int argc, char**) {
   std::printf("kind,disks,method,parameter,cpu_ms,largest_relative_error\n");
