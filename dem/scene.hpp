@@ -66,6 +66,7 @@ struct FinishScene {
   double drag = 0.5;         // [1/T0] rate of the global drag -drag * m * v
   double quiet_time = 10.0;  // [T0] switch on when a network that carries the stress has met the kinetic criterion
                              // for so long
+  friend bool operator==(const FinishScene&, const FinishScene&) = default;
 };
 
 // [[stage]]: one step of the history of a sample.
