@@ -73,12 +73,12 @@ double NeighbourLists::inner_skin_for(double pair_displacement) const {
 }
 
 void NeighbourLists::build(BodiesStore& bodies, const PeriodicCell<2>& cell, std::vector<PairMemory> histories) {
-  double sum = 0, smallest = INFINITY, largest = 0;
-  for (const BodyConstants& c : bodies.constants) {
-    sum += c.radius, smallest = std::min(smallest, c.radius), largest = std::max(largest, c.radius);
-  }
-  smallest_diameter_ = 2 * smallest, largest_diameter_ = 2 * largest;
-  mean_diameter_ = 2 * sum / static_cast<double>(bodies_);
+  // In the order of size: the storage order, which changes in the run, must not show in the last bit after a restart.
+  std::vector<double> radii;
+  for (const BodyConstants& c : bodies.constants) radii.push_back(c.radius);
+  std::sort(radii.begin(), radii.end());
+  smallest_diameter_ = 2 * radii.front(), largest_diameter_ = 2 * radii.back();
+  mean_diameter_ = 2 * std::accumulate(radii.begin(), radii.end(), 0.0) / static_cast<double>(bodies_);
   sort_bodies(bodies, cell, histories);
   outer_skin_ = outer_skin_for(cell);
   inner_skin_ = inner_skin_for(0);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <ctime>
 #include <numbers>
+#include <numeric>
 
 #include "dem/energy.hpp"
 #include "dem/random.hpp"
@@ -88,9 +89,10 @@ CellControl cell_control(const State& s, const StageScene& stage) {
   CellControl c;
   c.pressure = stage.pressure;
   c.max_strain_rate = stage.max_strain_rate;
-  double mass = 0;
-  for (double m : s.packing.bodies.mass) mass += m;
-  c.inertia = s.scene.cell.inertia * mass;
+  // In the order of size: the storage order, which changes in the run, must not show in the last bit after a restart.
+  std::vector<double> masses = s.packing.bodies.mass;
+  std::sort(masses.begin(), masses.end());
+  c.inertia = s.scene.cell.inertia * std::accumulate(masses.begin(), masses.end(), 0.0);
   c.rate_coupling = s.scene.cell.rate_coupling;
   return c;
 }
