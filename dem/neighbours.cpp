@@ -25,7 +25,7 @@ struct Grid {
       if (!(cell.length[k] >= cutoff))
         throw std::runtime_error("the cell, L" + std::to_string(k + 1) + " = " + std::to_string(cell.length[k]) +
                                  " a, is smaller than the largest interaction distance " + std::to_string(cutoff) +
-                                 " a: a grain would touch itself; use more grains (grains.count) or a lower pressure");
+                                 " a: a grain would touch itself");
       n[k] = static_cast<int>(std::min(cell.length[k] / cutoff, 30000.0));
       inverse[k] = n[k] / cell.length[k];
     }
@@ -62,21 +62,26 @@ int NeighbourLists::chunk_of(std::int32_t body) const {
   return c;
 }
 
+// No pair may be listed through its second image: in a tiny cell the skin is what the cell leaves.
+double NeighbourLists::outer_skin_for(const PeriodicCell<2>& cell) const {
+  return std::min(kOuterSkin * mean_diameter_, std::min(cell.length[0], cell.length[1]) - largest_diameter_ - range_);
+}
+
 double NeighbourLists::inner_skin_for(double pair_displacement) const {
-  return std::clamp(kInnerSteps * pair_displacement, kSmallestInnerSkin * smallest_diameter_,
-                    kLargestInnerSkin * outer_skin_);
+  return std::min(std::max(kInnerSteps * pair_displacement, kSmallestInnerSkin * smallest_diameter_),
+                  kLargestInnerSkin * outer_skin_);
 }
 
 void NeighbourLists::build(BodiesStore& bodies, const PeriodicCell<2>& cell, std::vector<PairMemory> histories) {
-  double sum = 0, smallest = INFINITY, largest = 0;
-  for (const BodyConstants& c : bodies.constants) {
-    sum += c.radius, smallest = std::min(smallest, c.radius), largest = std::max(largest, c.radius);
-  }
-  smallest_diameter_ = 2 * smallest, largest_diameter_ = 2 * largest;
-  mean_diameter_ = 2 * sum / static_cast<double>(bodies_);
-  outer_skin_ = kOuterSkin * mean_diameter_;
-  inner_skin_ = inner_skin_for(0);
+  // In the order of size: the storage order, which changes in the run, must not show in the last bit after a restart.
+  std::vector<double> radii;
+  for (const BodyConstants& c : bodies.constants) radii.push_back(c.radius);
+  std::sort(radii.begin(), radii.end());
+  smallest_diameter_ = 2 * radii.front(), largest_diameter_ = 2 * radii.back();
+  mean_diameter_ = 2 * std::accumulate(radii.begin(), radii.end(), 0.0) / static_cast<double>(bodies_);
   sort_bodies(bodies, cell, histories);
+  outer_skin_ = outer_skin_for(cell);
+  inner_skin_ = inner_skin_for(0);
   find_outer(bodies);
   inner_cell_ = cell;
   filter_inner(bodies, histories);
@@ -89,6 +94,8 @@ void NeighbourLists::rebuild(BodiesStore& bodies, const PeriodicCell<2>& cell, d
   // A pair now within the inner range had, when the outer list was made, at most this gap plus what it has moved.
   if (outer_travel_ + inner_skin_ > outer_skin_) {
     sort_bodies(bodies, cell, kept);
+    outer_skin_ = outer_skin_for(cell);
+    inner_skin_ = inner_skin_for(pair_displacement);
     find_outer(bodies);
   }
   inner_cell_ = cell;
@@ -232,16 +239,19 @@ void NeighbourLists::filter_inner(const BodiesStore& bodies, const std::vector<P
   damping_coefficient_.assign(begin.back(), 0.0), radius_sum_.assign(begin.back(), 1.0);
   tangential_.assign(begin.back(), 0.0), moment_.assign(begin.back(), 0.0);
 
-  // Histories by their body i, to be claimed by the pairs.
+  // Histories by their body i, to be claimed by the pairs. Those of an image further than the nearest ones (a link of a
+  // foreign packing that does not touch) have none to claim them.
   std::vector<std::int32_t> history_begin(bodies_ + 1, 0);
-  for (const PairMemory& h : kept) ++history_begin[static_cast<std::size_t>(h.i) + 1];
+  auto has_code = [](const ImageShift<2>& s) { return std::abs(s[0]) <= 1 && std::abs(s[1]) <= 1; };
+  for (const PairMemory& h : kept) history_begin[static_cast<std::size_t>(h.i) + 1] += has_code(h.shift);
   std::partial_sum(history_begin.begin(), history_begin.end(), history_begin.begin());
   std::vector<History> history(kept.size());
   {
     std::vector<std::int32_t> fill(history_begin.begin(), history_begin.end() - 1);
     for (const PairMemory& h : kept)
-      history[static_cast<std::size_t>(fill[static_cast<std::size_t>(h.i)]++)] = {h.j, image_code(h.shift),
-                                                                                  h.tangential_force, h.moment};
+      if (has_code(h.shift))
+        history[static_cast<std::size_t>(fill[static_cast<std::size_t>(h.i)]++)] = {h.j, image_code(h.shift),
+                                                                                    h.tangential_force, h.moment};
   }
 
   std::vector<std::size_t> fill(begin.begin(), begin.end() - 1);

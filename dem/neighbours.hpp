@@ -78,6 +78,7 @@ class NeighbourLists {
   void find_outer(const BodiesStore& bodies);
   void filter_inner(const BodiesStore& bodies, const std::vector<PairMemory>& histories);
   std::vector<PairMemory> histories() const;
+  double outer_skin_for(const PeriodicCell<2>& cell) const;
   double inner_skin_for(double pair_displacement) const;
   std::size_t segment_of(std::int32_t i, std::int32_t j, std::uint8_t shift) const;
   int chunk_of(std::int32_t body) const;

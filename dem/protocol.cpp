@@ -5,7 +5,9 @@
 #include <cmath>
 #include <ctime>
 #include <numbers>
+#include <numeric>
 
+#include "dem/energy.hpp"
 #include "dem/random.hpp"
 
 namespace isostat {
@@ -43,6 +45,7 @@ void agitate(State& s, double rms) {
   std::vector<std::size_t> order(b.size());
   for (std::size_t k = 0; k < b.size(); ++k) order[k] = k;
   std::sort(order.begin(), order.end(), [&](std::size_t p, std::size_t q) { return b.id[p] < b.id[q]; });
+  const double before = energies(s).kinetic;
   Vec2 momentum{};
   double mass = 0;
   for (std::size_t k : order) {
@@ -56,8 +59,10 @@ void agitate(State& s, double rms) {
     sum += dot(b.velocity[k], b.velocity[k]);
   }
   const double scale = sum > 0 ? rms / std::sqrt(sum / static_cast<double>(b.size())) : 0.0;
+  double after = 0;
   for (std::size_t k = 0; k < b.size(); ++k) {
     b.velocity[k] = scale * b.velocity[k];
+    after += 0.5 * b.mass[k] * dot(b.velocity[k], b.velocity[k]);
     b.spin[k] = 0;
     if (!s.memory.half_velocity.empty()) {
       s.memory.half_velocity[k] = b.velocity[k] - (0.5 * s.time_step / b.mass[k]) * s.memory.force[k];
@@ -65,6 +70,7 @@ void agitate(State& s, double rms) {
     }
   }
   s.random_counter = random.counter();
+  s.ledger.injected += after - before;
 }
 
 // The opening actions of a stage.
@@ -83,9 +89,10 @@ CellControl cell_control(const State& s, const StageScene& stage) {
   CellControl c;
   c.pressure = stage.pressure;
   c.max_strain_rate = stage.max_strain_rate;
-  double mass = 0;
-  for (double m : s.packing.bodies.mass) mass += m;
-  c.inertia = s.scene.cell.inertia * mass;
+  // In the order of size: the storage order, which changes in the run, must not show in the last bit after a restart.
+  std::vector<double> masses = s.packing.bodies.mass;
+  std::sort(masses.begin(), masses.end());
+  c.inertia = s.scene.cell.inertia * std::accumulate(masses.begin(), masses.end(), 0.0);
   c.rate_coupling = s.scene.cell.rate_coupling;
   return c;
 }
@@ -113,7 +120,8 @@ class StageRun {
         slice_(std::max<std::int64_t>(1, kGrainStepsPerSlice / static_cast<std::int64_t>(state.packing.bodies.size()))),
         last_checkpoint_(wall_seconds()) {
     if (s_.progress.drag_on) solver_.set_drag(s_.scene.finish.drag);
-    last_observation_ = std::floor(s_.time / hooks_.observe_interval);
+    if (hooks_.observe_interval > 0)
+      last_observation_ = std::floor((s_.time + 0.5 * s_.time_step) / hooks_.observe_interval);
     solid_fraction_before_ = solid_fraction(s_.packing.bodies, solver_.cell());
   }
 
@@ -127,6 +135,7 @@ class StageRun {
       }
       if (hooks_.interrupted && hooks_.interrupted()) {
         solver_.snapshot(s_);
+        certify();
         return false;
       }
       solver_.run(steps_to_next_stop());

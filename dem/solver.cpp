@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "dem/equilibrium.hpp"
+#include "dem/kernel/crossing.hpp"
 #include "dem/link.hpp"
 #include "dem/run_error.hpp"
 
@@ -68,8 +68,10 @@ Solver::Solver(const State& state, const CellControl& control, SolverOptions opt
       row[3] -= 0.5 * dt_ * load[1] * c.inverse_mass;
       row[5] -= 0.5 * dt_ * (c.radius * load[2] + load[3]) * c.inverse_inertia;
       row[4] = c.radius * row[5];
+      for (int a = 0; a < 2; ++a) motion_tally_.kinetic[a] += c.mass * row[6 + a] * row[6 + a];
     }
     measure_stress();
+    if (energies_) set_work_due();
   }
 }
 
@@ -77,11 +79,12 @@ void Solver::step() {
   StageClock clock(times_, step_ % kTimedEvery == 0);
   const double displacement = advance_bodies();
   clock.mark(0);
-  lists_.update(bodies_, cell_, displacement);
+  update_lists(displacement);
   clock.mark(1);
   compute_forces(dt_);
   clock.mark(2);
   measure_stress();
+  if (energies_) work_ledger();
   clock.mark(3);
   time_ += dt_;
   ++step_;
@@ -91,12 +94,12 @@ double Solver::advance_bodies() {
   MotionStep step;
   step.time_step = dt_;
   step.keep[0] = step.keep[1] = step.keep_spin = 1 - drag_ * dt_;
-  if (energies_ && drag_ > 0) drag_ledger();
   double affine = 0;
   if (control_.pressure) {
     flow_ = advance_cell(control_, dt_, cell_motion_, cell_, step);
     affine = std::max(std::abs(step.scale[0] - 1), std::abs(step.scale[1] - 1));
   }
+  if (energies_ && (step.keep[0] != 1 || step.keep[1] != 1)) brake_ledger(step);
 
   team_.run(lists_.chunks(), [&](int chunk) {
     motion_tallies_[static_cast<std::size_t>(chunk)] =
@@ -109,8 +112,18 @@ double Solver::advance_bodies() {
   }
   const double move = dt_ * std::sqrt(motion_tally_.largest_speed_squared);
   if (!(move <= kMostMove * smallest_diameter_) || !(affine <= kMostMove)) check_sanity();
-  // Listed neighbours are nearer than two diameters; 1.01 covers the rescaling of the peculiar move.
-  return 1.01 * (2 * move + affine * 2 * largest_diameter_);
+  // Listed neighbours are nearer than two diameters and the range; the first factor covers the rescaling of the
+  // peculiar move, and the rounding of travels summed over many steps.
+  return (1.01 + affine) * (2 * move + affine * (2 * largest_diameter_ + law_.attraction_range));
+}
+
+void Solver::update_lists(double displacement) {
+  try {
+    lists_.update(bodies_, cell_, displacement);
+  } catch (const std::runtime_error& e) {
+    check_sanity();  // may name the grain
+    throw RunError(step_, -1, e.what(), "use more grains (grains.count), or lower stage.pressure or step.fraction");
+  }
 }
 
 void Solver::compute_forces(double time_step) {
@@ -144,28 +157,75 @@ void Solver::compute_forces(double time_step) {
 
 // sigma_aa = (1/A) [sum m v_a^2 + sum over pairs F_a r_a], each pair once, compression positive.
 void Solver::measure_stress() {
-  if (!control_.pressure && !energies_) return;
+  if (!control_.pressure) return;
   const double area = cell_.measure();
   for (int a = 0; a < 2; ++a) {
-    const double power = force_tally_.virial[a] * -flow_.half[a];
     cell_motion_.stress[a] = (motion_tally_.kinetic[a] + force_tally_.virial[a]) / area;
-    if (energies_) ledger_.cell_work += power * dt_;
-  }
-  if (energies_) {
-    ledger_.viscous += force_tally_.viscous;
-    ledger_.sliding += force_tally_.sliding;
-    ledger_.rolling += force_tally_.rolling;
   }
 }
 
-void Solver::drag_ledger() {
+// Work of the forces that keep only a part of the velocity: the impulse of each times the mean of the velocities before
+// and after, exactly what the kinetic energy loses. The part due to the rate of the cell is the cell's work.
+void Solver::brake_ledger(const MotionStep& step) {
+  const double drag = drag_ * dt_;
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
-    const double* row = bodies_.row(k);
+    const double *row = bodies_.row(k), *load = bodies_.load(k);
     const BodyConstants& c = bodies_.constants[k];
-    const double twice = c.mass * (row[2] * row[2] + row[3] * row[3]) +
-                         (c.inverse_inertia > 0 ? row[5] * row[5] / c.inverse_inertia : 0.0);
-    ledger_.drag += twice * drag_ * dt_;
+    for (int a = 0; a < 2; ++a) {
+      const double free = row[2 + a] + dt_ * load[a] * c.inverse_mass, brake = 1 - step.keep[a];
+      const double mean = 0.5 * (row[2 + a] + free * step.keep[a]);
+      ledger_.drag += c.mass * drag * free * mean;
+      ledger_.cell_work -= c.mass * (brake - drag) * free * mean;
+    }
+    if (!rotates_) continue;
+    const double free = row[5] + dt_ * (c.radius * load[2] + load[3]) * c.inverse_inertia;
+    ledger_.drag += drag * free * 0.5 * (row[5] + free * step.keep_spin) / c.inverse_inertia;
   }
+}
+
+// Springs were stretched over the step that ends now. Viscous forces and the moving cell work as the trapezium rule
+// says: half of a step's work before its instant, half after.
+void Solver::work_ledger() {
+  ledger_.sliding += force_tally_.sliding;
+  ledger_.rolling += force_tally_.rolling;
+  ledger_.viscous += ledger_.viscous_due, ledger_.cell_work += ledger_.cell_work_due;
+  set_work_due();
+  ledger_.viscous += ledger_.viscous_due, ledger_.cell_work += ledger_.cell_work_due;
+}
+
+void Solver::set_work_due() {
+  ledger_.viscous_due = 0.5 * dt_ * viscous_power();
+  ledger_.cell_work_due = -0.5 * dt_ * (force_tally_.virial[0] * flow_.now[0] + force_tally_.virial[1] * flow_.now[1]);
+}
+
+// Of the viscous forces of this instant, with the mean of the velocities before and after it. The forces themselves
+// were evaluated with predicted velocities, before the loads were known.
+double Solver::viscous_power() const {
+  if (!(law_.damping > 0)) return 0;
+  double power = 0;
+  lists_.for_each([&](std::int32_t a, std::int32_t b, std::uint8_t shift, double, double) {
+    const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+    const BodyConstants &ci = bodies_.constants[i], &cj = bodies_.constants[j];
+    const Vec2 r = bodies_.position(j) + cell_.offset(image_shift(shift)) - bodies_.position(i);
+    const PairFrame<double> frame = pair_frame(r[0], r[1], ci.radius + cj.radius);
+    if (frame.gap >= 0) return;
+    double receding = 0, predicted = 0, mean = 0;
+    for (int k = 0; k < 2; ++k) {
+      const double normal = k == 0 ? frame.nx : frame.ny, affine = flow_.now[k] * r[k];
+      const double *ri = bodies_.row(i), *rj = bodies_.row(j);
+      const double kick = 0.5 * dt_ * (bodies_.load(j)[k] * cj.inverse_mass - bodies_.load(i)[k] * ci.inverse_mass);
+      receding += normal * (rj[2 + k] - ri[2 + k] + flow_.half[k] * r[k]);
+      predicted += normal * (rj[6 + k] - ri[6 + k] + affine);
+      mean += normal * (rj[2 + k] - ri[2 + k] + kick + affine);
+    }
+    const double damping = law_.damping * std::sqrt(4 * law_.normal_stiffness / (ci.inverse_mass + cj.inverse_mass));
+    using kernel::Scalar;
+    const Scalar weight = kernel::crossing_weights(Scalar(frame.gap), Scalar(receding * dt_),
+                                                   kernel::crossing_braking(law_, dt_), Scalar(damping))
+                              .viscous;
+    power += weight[0] * damping * predicted * mean;
+  });
+  return power;
 }
 
 void Solver::check_sanity() const {

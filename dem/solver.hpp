@@ -61,7 +61,11 @@ class Solver {
   void compute_forces(double time_step);
   void measure_stress();
   void load_bodies(const State& state);
-  void drag_ledger();
+  void update_lists(double displacement);
+  void brake_ledger(const MotionStep& step);
+  void work_ledger();
+  void set_work_due();
+  double viscous_power() const;
 
   LawParameters law_;
   CellControl control_;

@@ -47,7 +47,7 @@ void Solver::load_bodies(const State& state) {
   try {
     lists_.build(bodies_, cell_, std::move(springs));
   } catch (const std::runtime_error& e) {
-    throw RunError(step_, -1, e.what(), "check grains.count and the cell");
+    throw RunError(step_, -1, e.what(), "use more grains (grains.count) or a larger cell (grains.solid_fraction)");
   }
 }
 

@@ -140,13 +140,15 @@ void transfer_progress(Io& io, StageProgress& progress) {
 
 template <class Io>
 void transfer_ledger(Io& io, EnergyLedger& ledger) {
-  auto& [viscous, sliding, rolling, drag, cell_work, injected] = ledger;
+  auto& [viscous, sliding, rolling, drag, cell_work, injected, viscous_due, cell_work_due] = ledger;
   io.value("/ledger", "viscous", viscous);
   io.value("/ledger", "sliding", sliding);
   io.value("/ledger", "rolling", rolling);
   io.value("/ledger", "drag", drag);
   io.value("/ledger", "cell_work", cell_work);
   io.value("/ledger", "injected", injected);
+  io.value("/ledger", "viscous_due", viscous_due);
+  io.value("/ledger", "cell_work_due", cell_work_due);
 }
 
 template <class Io>

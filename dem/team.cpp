@@ -12,13 +12,13 @@ namespace isostat {
 // Workers wait for the generation to change, first spinning (a step of a small packing takes microseconds), then
 // asleep in the kernel.
 struct Team::Crew {
-  std::vector<std::jthread> workers;
   std::atomic<unsigned> generation{0}, finished{0};
   std::atomic<bool> stop{false};
   const std::function<void(int)>* task = nullptr;
   int count = 0;
   std::mutex failure_lock;
   std::exception_ptr failure;
+  std::vector<std::jthread> workers;  // last: they are joined before the rest goes
 
   void work(int member, int members) {
     try {

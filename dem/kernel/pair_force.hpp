@@ -45,12 +45,11 @@ struct PairForceInput {
 
 struct PairForceTally {
   double virial[2] = {0, 0};  // sum of F_a r_a over pairs, repulsion positive [F0 a]
-  double viscous = 0;         // energy dissipated in this step [F0 a]
-  double sliding = 0;
+  double sliding = 0;         // energy dissipated in this step [F0 a]
   double rolling = 0;
   PairForceTally& operator+=(const PairForceTally& o) {
     virial[0] += o.virial[0], virial[1] += o.virial[1];
-    viscous += o.viscous, sliding += o.sliding, rolling += o.rolling;
+    sliding += o.sliding, rolling += o.rolling;
     return *this;
   }
 };

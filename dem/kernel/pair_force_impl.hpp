@@ -2,6 +2,7 @@
 // dem/kernel/kernels_*.cpp, each compiled for its own instruction set.
 #pragma once
 #include "dem/kernel/contact_law.hpp"
+#include "dem/kernel/crossing.hpp"
 #include "dem/kernel/pair_force.hpp"
 #include "dem/kernel/row.hpp"
 #include "dem/link.hpp"
@@ -20,23 +21,13 @@ ISOSTAT_INLINE V image_offset(const PairForceInput& in, std::size_t k, int axis)
   return load<V>(offset);
 }
 
-// Part of the step that a contact formed within it has existed for: the gap was positive a step ago. Without it a new
-// spring is stretched by the whole step, a first-order error in every oblique impact.
-template <class V>
-ISOSTAT_INLINE V contact_time(V gap, V normal_displacement) {
-  V fraction(1.0);
-  const auto formed = gap < V(0.0) && gap - normal_displacement > V(0.0);
-  if (any_of(formed)) [[unlikely]]
-    return select(formed, gap / normal_displacement, fraction);
-  return fraction;
-}
-
 template <class V, class Law, Tally kTally, bool kImages>
 PairForceTally pair_forces(const PairForceInput& input) {
   const PairForceInput in = input;  // a copy that no store can alias: its fields stay in registers
   const LawParameters& law = in.law;
   const V dt(in.time_step);
-  V virial_x(0.0), virial_y(0.0), viscous(0.0), sliding(0.0), rolling(0.0);
+  const double braking = crossing_braking(law, in.time_step);
+  V virial_x(0.0), virial_y(0.0), sliding(0.0), rolling(0.0);
 
   for (std::size_t k = in.begin; k < in.end; k += V::size()) {
     PairDifference<V> d = load_differences(in.rows, in.pairs.i + k, in.pairs.j + k, V());
@@ -54,33 +45,42 @@ PairForceTally pair_forces(const PairForceInput& input) {
     const auto contact = f.gap < V(0.0);
     const V repulsion = law::NormalLinear::repulsion(law, f.gap);
 
-    V normal = repulsion;
-    if constexpr (Law::Adhesion::acts) normal += Law::Adhesion::force(law, f.gap);
+    V elastic = repulsion, damping(0.0);
+    const V damping_coefficient = Law::Damping::acts ? load<V>(in.pairs.damping + k) : V(1.0);
     if constexpr (Law::Damping::acts) {
       const V receding = mul_add<V>(f.nx, d.p, f.ny * d.q);
-      const V damping = select(contact, Law::Damping::force(load<V>(in.pairs.damping + k), receding), V(0.0));
-      normal += damping;
-      if constexpr (kTally == Tally::energy) viscous -= damping * receding * dt;
+      damping = select(contact, Law::Damping::force(damping_coefficient, receding), V(0.0));
     }
+    const LinkVelocity<V> velocity = pair_velocity<V>(f, d.u, d.v, d.surface_sum, d.spin);
+    V slip = velocity.tangential * dt, roll = velocity.rolling * dt;
 
-    V tangential(0.0), moment(0.0);
-    if constexpr (Law::Friction::acts || Law::Rolling::acts) {
-      const LinkVelocity<V> velocity = pair_velocity<V>(f, d.u, d.v, d.surface_sum, d.spin);
-      const V time = dt * contact_time<V>(f.gap, velocity.normal * dt);
-      V released(0.0);
-      V* const watched = kTally == Tally::energy ? &released : nullptr;
-      if constexpr (Law::Friction::acts) {
-        tangential = law::spring<typename Law::Friction>(law, load<V>(in.pairs.tangential + k),
-                                                         velocity.tangential * time, repulsion, watched);
-        tangential.copy_to(in.pairs.tangential + k, stdx::element_aligned);
-        if constexpr (kTally == Tally::energy) sliding += released * V(0.5 / law.tangential_stiffness);
-      }
-      if constexpr (Law::Rolling::acts) {
-        moment = law::spring<typename Law::Rolling>(law, load<V>(in.pairs.moment + k), velocity.rolling * time,
-                                                    repulsion, watched);
-        moment.copy_to(in.pairs.moment + k, stdx::element_aligned);
-        if constexpr (kTally == Tally::energy) rolling += released * V(0.5 / law.rolling_stiffness);
-      }
+    const V receded = velocity.normal * dt;
+    const bool crossing = crosses(f.gap, receded);
+    CrossingWeights<V> weight;
+    if (crossing) [[unlikely]] {
+      weight = crossing_weights<V>(f.gap, receded, braking, damping_coefficient);
+      elastic = elastic * weight.elastic, damping = damping * weight.viscous;
+      slip = slip * weight.stretch, roll = roll * weight.stretch;
+    }
+    V normal = elastic;
+    if constexpr (Law::Adhesion::acts) normal += Law::Adhesion::force(law, f.gap);
+    if constexpr (Law::Damping::acts) normal += damping;
+
+    V tangential(0.0), moment(0.0), slipped(0.0);
+    V* const watched = kTally == Tally::energy ? &slipped : nullptr;
+    if constexpr (Law::Friction::acts) {
+      tangential = law::spring<typename Law::Friction>(law, load<V>(in.pairs.tangential + k), slip, repulsion, watched);
+      tangential.copy_to(in.pairs.tangential + k, stdx::element_aligned);
+      if constexpr (kTally == Tally::energy) sliding += slipped * V(0.5 / law.tangential_stiffness);
+    }
+    if constexpr (Law::Rolling::acts) {
+      moment = law::spring<typename Law::Rolling>(law, load<V>(in.pairs.moment + k), roll, repulsion, watched);
+      moment.copy_to(in.pairs.moment + k, stdx::element_aligned);
+      if constexpr (kTally == Tally::energy) rolling += slipped * V(0.5 / law.rolling_stiffness);
+    }
+    if (crossing) [[unlikely]] {
+      if constexpr (Law::Friction::acts) tangential = tangential * weight.elastic;
+      if constexpr (Law::Rolling::acts) moment = moment * weight.elastic;
     }
 
     const V fx = mul_add<V>(-f.ny, tangential, f.nx * normal);
@@ -94,8 +94,7 @@ PairForceTally pair_forces(const PairForceInput& input) {
 
   PairForceTally sum;
   if constexpr (kTally != Tally::nothing) sum.virial[0] = reduce(virial_x), sum.virial[1] = reduce(virial_y);
-  if constexpr (kTally == Tally::energy)
-    sum.viscous = reduce(viscous), sum.sliding = reduce(sliding), sum.rolling = reduce(rolling);
+  if constexpr (kTally == Tally::energy) sum.sliding = reduce(sliding), sum.rolling = reduce(rolling);
   return sum;
 }
 

@@ -38,14 +38,15 @@ struct RollingElastoplastic {
   static double coefficient(const LawParameters& p) { return p.rolling_friction; }
 };
 
-// The spring after a displacement: trial force, clamped to the limit. `released` is the elastic energy times 2K that
-// the clamp takes away, trial^2 - force^2.
+// The spring after a displacement: trial force, clamped to the limit. `slipped` is the work done on the slip, times 2K:
+// the mean force over the step times the part of the displacement that the spring did not take. (The elastic energy
+// that the clamp takes away, (trial^2 - clamped^2) / 2K, exceeds it by a term of first order in the step.)
 template <class Axis, class Real>
-Real spring(const LawParameters& p, Real force, Real displacement, Real repulsion, Real* released = nullptr) {
+Real spring(const LawParameters& p, Real force, Real displacement, Real repulsion, Real* slipped = nullptr) {
   const Real limit = Real(Axis::coefficient(p)) * repulsion;
   const Real trial = mul_add<Real>(Real(-Axis::stiffness(p)), displacement, force);
   const Real clamped = min(max(trial, -limit), limit);
-  if (released) *released = trial * trial - clamped * clamped;
+  if (slipped) *slipped = (trial - clamped) * (force + clamped);
   return clamped;
 }
 

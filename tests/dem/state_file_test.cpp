@@ -93,7 +93,7 @@ State random_state(std::uint64_t seed, int grains, int links) {
   s.scene.seed = d.word() >> 1;
   s.progress = {
       d.integer(0, static_cast<int>(s.scene.stages.size())), d.real(), d.coin(), d.coin(), d.real(), d.word()};
-  s.ledger = {d.real(), d.real(), d.real(), d.real(), d.real(), d.real()};
+  s.ledger = {d.real(), d.real(), d.real(), d.real(), d.real(), d.real(), d.real(), d.real()};
   Certificate& c = s.certificate;
   for (double* x : {&c.max_force, &c.max_moment, &c.pressure_error, &c.kinetic_energy_per_grain, &c.force_scale,
                     &c.tolerance_force, &c.tolerance_pressure, &c.tolerance_kinetic, &c.smallest_margin})
@@ -187,6 +187,8 @@ void expect_equal(const State& a, const State& b) {
   EXPECT_SAME(ledger.drag);
   EXPECT_SAME(ledger.cell_work);
   EXPECT_SAME(ledger.injected);
+  EXPECT_SAME(ledger.viscous_due);
+  EXPECT_SAME(ledger.cell_work_due);
   EXPECT_SAME(certificate.max_force);
   EXPECT_SAME(certificate.max_moment);
   EXPECT_SAME(certificate.pressure_error);
