@@ -91,8 +91,7 @@ State random_state(std::uint64_t seed, int grains, int links) {
   for (StageScene& stage : s.scene.stages) stage.pressure = d.positive(), stage.velocity = d.positive();
   s.scene.law.friction = d.positive(), s.scene.output.series = "a \"quoted\"\nname";
   s.scene.seed = d.word() >> 1;
-  s.progress = {
-      d.integer(0, static_cast<int>(s.scene.stages.size())), d.real(), d.coin(), d.coin(), d.real(), d.word()};
+  s.progress = {d.integer(0, static_cast<int>(s.scene.stages.size())), d.real(), d.coin(), d.coin(), d.real()};
   s.ledger = {d.real(), d.real(), d.real(), d.real(), d.real(), d.real(), d.real(), d.real()};
   Certificate& c = s.certificate;
   for (double* x : {&c.max_force, &c.max_moment, &c.pressure_error, &c.kinetic_energy_per_grain, &c.force_scale,
