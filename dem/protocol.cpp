@@ -167,6 +167,7 @@ class StageRun {
     if (hooks_.observe && hooks_.observe_interval > 0 &&
         solver_.time() + half >= (last_observation_ + 1) * hooks_.observe_interval) {
       last_observation_ = std::floor((solver_.time() + half) / hooks_.observe_interval);
+      solver_.check_sanity();
       solver_.snapshot(s_);
       certify();
       hooks_.observe(s_);
@@ -179,6 +180,7 @@ class StageRun {
       for (double t : s_.scene.output.snapshot_times) wanted = wanted || std::abs(t - solver_.time()) <= half;
       solid_fraction_before_ = now;
       if (wanted) {
+        solver_.check_sanity();
         solver_.snapshot(s_);
         certify();
         hooks_.snapshot(s_);
