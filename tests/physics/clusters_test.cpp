@@ -70,8 +70,8 @@ TEST(Pair, SticksAtTheStaticOverlap) {
   EXPECT_NEAR(s.packing.bodies.velocity[0][0], 0.01, 1e-9);
 }
 
-// Sliding throughout: the tangential impulse is mu times the normal one, m_r (1 + e) v_n, as the viscous force has no net
-// impulse between touch and loss of contact. Slow, so that the disks do not turn about each other meanwhile.
+// Sliding throughout: the tangential impulse is mu times the normal one, m_r (1 + e) v_n, as the viscous force has no
+// net impulse between touch and loss of contact. Slow, so that the disks do not turn about each other meanwhile.
 TEST(Pair, ObliqueImpactThatSlidesThroughoutKeepsToCoulomb) {
   const double normal = 0.002, tangential = 0.01;
   const lab::ObliqueImpact o = lab::oblique_impact(cohesive(), 0.03, normal, tangential, 16);
