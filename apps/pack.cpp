@@ -1,33 +1,26 @@
 // isostat pack SCENE.toml -o STATE.h5: runs the scene's stages, for one sample or several side by side.
 #include <algorithm>
-#include <atomic>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <mutex>
 #include <nlohmann/json.hpp>
 
-#include "analysis/version.hpp"
 #include "apps/arguments.hpp"
 #include "apps/commands.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/progress_line.hpp"
+#include "apps/sample_run.hpp"
 #include "dem/atomic_file.hpp"
 #include "dem/input_error.hpp"
 #include "dem/protocol.hpp"
-#include "dem/run_error.hpp"
 #include "dem/sample.hpp"
 #include "dem/scales.hpp"
 #include "dem/scene_file.hpp"
-#include "dem/scene_keys.hpp"
-#include "dem/series.hpp"
-#include "dem/state_file.hpp"
+#include "dem/team.hpp"
 
 namespace isostat {
 namespace {
-
-constexpr double kCheckpointSeconds = 60;
 
 // What all samples share.
 struct PackJob {
@@ -55,154 +48,34 @@ std::string command_text(const PackJob& job) {
   return text;
 }
 
-// Appends rows to the series; after a resume it goes on where the file stood at the checkpoint.
-class SeriesFile {
- public:
-  SeriesFile(const std::string& path, bool energies, double resumed_at) : path_(path), energies_(energies) {
-    std::string kept = series_header(energies);
-    if (resumed_at >= 0 && std::filesystem::exists(path)) {
-      std::ifstream in(path);
-      std::string line;
-      std::getline(in, line);
-      while (std::getline(in, line))
-        if (std::strtod(line.c_str(), nullptr) <= resumed_at) kept += line + "\n";
-    }
-    write_file_atomically(path, kept);
-    out_.open(path, std::ios::app);
-  }
-  void add(const State& state) {
-    out_ << series_row(state, energies_) << std::flush;
-    if (!out_) throw InputError(path_, 0, "output.series", path_, "cannot be written");
-  }
-
- private:
-  std::string path_;
-  bool energies_;
-  std::ofstream out_;
-};
-
-class SampleRun {
- public:
-  SampleRun(const PackJob& job, int sample)
-      : job_(job),
-        sample_(sample),
-        output_(numbered(job.output, sample, job.samples)),
-        seed_(job.seed + static_cast<std::uint64_t>(sample)) {}
-
-  // The exit code; adds to the timings.
-  int run(ProgressLine& line, RunOutcome& total, std::int64_t& grain_steps, std::mutex& lock) {
-    if (job_.resume && !std::filesystem::exists(partial()) && std::filesystem::exists(output_)) {
-      check_same(read_state(output_), output_);
-      return exit_done;
-    }
-    State state = start();
-    RunHooks hooks = make_hooks(line, state);
-    SolverOptions options;
-    options.threads = job_.samples > 1 ? 1 : job_.threads;
-    options.energies = job_.scene.output.energies;
-    RunOutcome outcome;
-    try {
-      outcome = run_stages(state, options, hooks);
-    } catch (const RunError& e) {
-      write(state, output_);
-      say(lock, std::string("the run blew up: ") + e.what() + "; the last sane state is in " + output_);
-      return exit_unfinished;
-    }
-    {
-      const std::scoped_lock hold(lock);
-      total.steps += outcome.steps, total.times += outcome.times;
-      total.cpu_seconds += outcome.cpu_seconds;
-      total.wall_seconds = std::max(total.wall_seconds, outcome.wall_seconds);
-      grain_steps += outcome.steps * static_cast<std::int64_t>(state.packing.bodies.size());
-    }
-    if (outcome.interrupted) {
-      write(state, partial());
-      say(lock, "interrupted at t = " + std::to_string(state.time) +
-                    " T0; the same command with --resume goes on from " + partial());
-      return exit_interrupted;
-    }
-    write(state, output_);
-    std::filesystem::remove(partial());
-    for (const StageOutcome& s : outcome.stages)
-      if (!s.met) say(lock, "stage " + std::to_string(s.stage) + " did not meet its end: " + s.reason);
-    return outcome.all_met() && state.progress.stage == static_cast<std::int32_t>(job_.scene.stages.size())
-               ? exit_done
-               : exit_unfinished;
-  }
-
- private:
-  std::string partial() const { return output_ + ".partial"; }
-
-  void say(std::mutex& lock, const std::string& text) const {
-    const std::scoped_lock hold(lock);
-    std::cerr << "isostat pack: " << output_ << ": " << text << '\n';
-  }
-
-  void write(const State& state, const std::string& path) const {
-    write_state(state, path, {std::string(version()), {}, command_text(job_)});
-  }
-
-  void check_same(const State& found, const std::string& path) const {
-    if (found.seed != seed_)
-      throw InputError(path, 0, "seed", std::to_string(found.seed),
-                       "--resume needs the command line that made it: seed is now " + std::to_string(seed_));
-    if (scene_to_toml(found.scene) != scene_to_toml(job_.scene))
-      throw InputError(path, 0, "scene", "", "--resume needs the command line that made it: the scene differs");
-  }
-
-  State start() {
-    if (job_.resume && std::filesystem::exists(partial())) {
-      State state = read_state(partial());
-      check_same(state, partial());
-      resumed_at_ = state.time;
-      return state;
-    }
-    return initial_state(job_.scene, seed_);
-  }
-
-  RunHooks make_hooks(ProgressLine& line, const State& state) {
-    RunHooks hooks;
-    hooks.interrupted = InterruptGuard::requested;
-    hooks.progress = [this, &line](const Progress& p) { line.update(p, job_.scene, sample_); };
-    hooks.checkpoint = [this](const State& s) { write(s, partial()); };
-    hooks.checkpoint_seconds = kCheckpointSeconds;
-    hooks.max_time = job_.max_time;
-    const OutputScene& o = job_.scene.output;
-    if (!o.series.empty()) {
-      series_ = std::make_unique<SeriesFile>(numbered(o.series, sample_, job_.samples), o.energies, resumed_at_);
-      hooks.observe = [this](const State& s) { series_->add(s); };
-      hooks.observe_interval = o.series_interval;
-    }
-    if (!o.snapshot_times.empty() || !o.snapshot_solid_fractions.empty())
-      hooks.snapshot = [this, count = snapshots_before(state)](const State& s) mutable {
-        char number[24];
-        std::snprintf(number, sizeof number, ".snapshot%04d", ++count);
-        const std::filesystem::path p(output_);
-        write(s, (p.parent_path() / (p.stem().string() + number + p.extension().string())).string());
-      };
-    return hooks;
-  }
-
-  // A resumed run numbers its snapshots on.
-  int snapshots_before(const State& state) const {
-    int count = 0;
-    if (resumed_at_ < 0) return 0;
-    const std::filesystem::path p(output_), folder = p.parent_path().empty() ? "." : p.parent_path();
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-      const std::string name = entry.path().filename().string();
-      if (name.starts_with(p.stem().string() + ".snapshot") && read_state(entry.path().string()).time <= state.time)
-        ++count;
-    }
-    return count;
-  }
-
-  const PackJob& job_;
-  int sample_;
-  std::string output_;
-  std::uint64_t seed_;
-  double resumed_at_ = -1;  // [T0]
-  std::unique_ptr<SeriesFile> series_;
-};
+// Adds the run of one sample to the timings of all; the exit code.
+ExitCode run_one(const PackJob& job, int k, ProgressLine& line, RunOutcome& total, std::int64_t& grain_steps,
+                 std::mutex& lock) {
+  const std::string output = numbered(job.output, k, job.samples);
+  const SampleJob sample{job.scene,
+                         job.seed + static_cast<std::uint64_t>(k),
+                         output,
+                         numbered(job.scene.output.series, k, job.samples),
+                         command_text(job),
+                         job.samples > 1 ? 1 : job.threads,
+                         job.max_time,
+                         job.resume};
+  std::int64_t grains = 0;
+  SampleWatch watch;
+  watch.interrupted = InterruptGuard::requested;
+  watch.progress = [&](const Progress& p) { line.update(p, job.scene, k); };
+  watch.ended = [&](const State& s, const SampleOutcome&) {
+    grains = static_cast<std::int64_t>(s.packing.bodies.size());
+  };
+  const SampleOutcome outcome = run_sample(sample, watch);
+  const std::scoped_lock hold(lock);
+  total.steps += outcome.run.steps, total.times += outcome.run.times;
+  total.cpu_seconds += outcome.run.cpu_seconds;
+  total.wall_seconds = std::max(total.wall_seconds, outcome.run.wall_seconds);
+  grain_steps += outcome.run.steps * grains;
+  for (const std::string& text : outcome.messages) std::cerr << "isostat pack: " << output << ": " << text << '\n';
+  return outcome.code;
+}
 
 void print_scales(const PackJob& job, const State& state) {
   State first = state;
@@ -242,11 +115,11 @@ void write_timings(const std::string& path, const RunOutcome& total, std::int64_
 int run_samples(const PackJob& job, RunOutcome& total, std::int64_t& grain_steps) {
   ProgressLine line(static_cast<int>(job.scene.stages.size()), job.samples);
   std::mutex lock;
-  std::vector<int> codes(static_cast<std::size_t>(job.samples), exit_done);
+  std::vector<ExitCode> codes(static_cast<std::size_t>(job.samples), exit_done);
   Team team(std::min(job.threads, job.samples));
   team.run(job.samples, [&](int k) {
     codes[static_cast<std::size_t>(k)] =
-        InterruptGuard::requested() ? exit_interrupted : SampleRun(job, k).run(line, total, grain_steps, lock);
+        InterruptGuard::requested() ? exit_interrupted : run_one(job, k, line, total, grain_steps, lock);
   });
   return *std::max_element(codes.begin(), codes.end());
 }

@@ -1,0 +1,167 @@
+#include "apps/sample_run.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include "analysis/version.hpp"
+#include "dem/atomic_file.hpp"
+#include "dem/input_error.hpp"
+#include "dem/run_error.hpp"
+#include "dem/sample.hpp"
+#include "dem/scene_keys.hpp"
+#include "dem/series.hpp"
+#include "dem/state_file.hpp"
+
+namespace isostat {
+namespace {
+
+constexpr double kCheckpointSeconds = 60;
+
+// Appends rows to the series; after a resume it goes on where the file stood at the checkpoint.
+class SeriesFile {
+ public:
+  SeriesFile(const std::string& path, bool energies, double resumed_at) : path_(path), energies_(energies) {
+    std::string kept = series_header(energies);
+    if (resumed_at >= 0 && std::filesystem::exists(path)) {
+      std::ifstream in(path);
+      std::string line;
+      std::getline(in, line);
+      while (std::getline(in, line))
+        if (std::strtod(line.c_str(), nullptr) <= resumed_at) kept += line + "\n";
+    }
+    write_file_atomically(path, kept);
+    out_.open(path, std::ios::app);
+  }
+  void add(const State& state) {
+    out_ << series_row(state, energies_) << std::flush;
+    if (!out_) throw InputError(path_, 0, "output.series", path_, "cannot be written");
+  }
+
+ private:
+  std::string path_;
+  bool energies_;
+  std::ofstream out_;
+};
+
+class SampleRun {
+ public:
+  SampleRun(const SampleJob& job, const SampleWatch& watch) : job_(job), watch_(watch) {}
+
+  SampleOutcome run() {
+    SampleOutcome outcome;
+    if (job_.resume && !std::filesystem::exists(partial()) && std::filesystem::exists(job_.output)) {
+      check_same(read_state(job_.output), job_.output);
+      return outcome;
+    }
+    State state = start();
+    const RunHooks hooks = make_hooks(state);
+    SolverOptions options;
+    options.threads = job_.threads;
+    options.energies = job_.scene.output.energies;
+    try {
+      outcome.run = run_stages(state, options, hooks);
+    } catch (const RunError& e) {
+      outcome.code = exit_unfinished;
+      outcome.blew_up = true;
+      outcome.messages = {std::string("the run blew up: ") + e.what() + "; the last sane state is in " + job_.output};
+      end(state, outcome, job_.output);
+      return outcome;
+    }
+    if (outcome.run.interrupted) {
+      outcome.code = exit_interrupted;
+      outcome.messages = {"interrupted at t = " + std::to_string(state.time) +
+                          " T0; the same command with --resume goes on from " + partial()};
+      end(state, outcome, partial());
+      return outcome;
+    }
+    for (const StageOutcome& s : outcome.run.stages)
+      if (!s.met) outcome.messages.push_back("stage " + std::to_string(s.stage) + " did not meet its end: " + s.reason);
+    const bool all_stages = state.progress.stage == static_cast<std::int32_t>(job_.scene.stages.size());
+    outcome.code = outcome.run.all_met() && all_stages ? exit_done : exit_unfinished;
+    end(state, outcome, job_.output);
+    std::filesystem::remove(partial());
+    return outcome;
+  }
+
+ private:
+  std::string partial() const { return partial_name(job_.output); }
+
+  void write(const State& state, const std::string& path) const {
+    write_state(state, path, {std::string(version()), {}, job_.command});
+  }
+
+  void end(const State& state, const SampleOutcome& outcome, const std::string& path) const {
+    if (watch_.ended) watch_.ended(state, outcome);
+    write(state, path);
+  }
+
+  void check_same(const State& found, const std::string& path) const {
+    if (found.seed != job_.seed)
+      throw InputError(path, 0, "seed", std::to_string(found.seed),
+                       "--resume needs the command line that made it: seed is now " + std::to_string(job_.seed));
+    if (scene_to_toml(found.scene) != scene_to_toml(job_.scene))
+      throw InputError(path, 0, "scene", "", "--resume needs the command line that made it: the scene differs");
+  }
+
+  State start() {
+    if (job_.resume && std::filesystem::exists(partial())) {
+      State state = read_state(partial());
+      check_same(state, partial());
+      resumed_at_ = state.time;
+      return state;
+    }
+    return initial_state(job_.scene, job_.seed);
+  }
+
+  RunHooks make_hooks(const State& state) {
+    RunHooks hooks;
+    hooks.interrupted = watch_.interrupted;
+    hooks.progress = watch_.progress;
+    hooks.checkpoint = [this](const State& s) { write(s, partial()); };
+    hooks.checkpoint_seconds = kCheckpointSeconds;
+    hooks.max_time = job_.max_time;
+    const OutputScene& o = job_.scene.output;
+    if (!job_.series.empty()) {
+      series_ = std::make_unique<SeriesFile>(job_.series, o.energies, resumed_at_);
+      hooks.observe = [this](const State& s) { series_->add(s); };
+      hooks.observe_interval = o.series_interval;
+    }
+    if (!o.snapshot_times.empty() || !o.snapshot_solid_fractions.empty())
+      hooks.snapshot = [this, count = snapshots_before(state)](const State& s) mutable {
+        char number[24];
+        std::snprintf(number, sizeof number, ".snapshot%04d", ++count);
+        const std::filesystem::path p(job_.output);
+        write(s, (p.parent_path() / (p.stem().string() + number + p.extension().string())).string());
+      };
+    return hooks;
+  }
+
+  // A resumed run numbers its snapshots on.
+  int snapshots_before(const State& state) const {
+    int count = 0;
+    if (resumed_at_ < 0) return 0;
+    const std::filesystem::path p(job_.output), folder = p.parent_path().empty() ? "." : p.parent_path();
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      const std::string name = entry.path().filename().string();
+      if (name.starts_with(p.stem().string() + ".snapshot") && read_state(entry.path().string()).time <= state.time)
+        ++count;
+    }
+    return count;
+  }
+
+  const SampleJob& job_;
+  const SampleWatch& watch_;
+  double resumed_at_ = -1;  // [T0]
+  std::unique_ptr<SeriesFile> series_;
+};
+
+}  // namespace
+
+std::string partial_name(const std::string& output) { return output + ".partial"; }
+
+SampleOutcome run_sample(const SampleJob& job, const SampleWatch& watch) { return SampleRun(job, watch).run(); }
+
+}  // namespace isostat
