@@ -225,6 +225,17 @@ std::vector<std::pair<std::string, std::string>> report_as_csv(const Json& repor
   return files;
 }
 
+std::vector<std::pair<std::string, Json>> report_scalars(const Json& report) {
+  std::vector<std::pair<std::string, const Json*>> rows;
+  for (const auto& [key, v] : report.items())
+    if (is_section(key) && v.is_object()) add_scalars(rows, key, v);
+  std::vector<std::pair<std::string, Json>> scalars;
+  for (const auto& [key, v] : rows) scalars.emplace_back(key, *v);
+  return scalars;
+}
+
+std::string csv_field(const Json& value) { return field(value); }
+
 std::string table_as_csv(const Table& table) {
   std::string text;
   for (const std::string& c : table.columns) text += (text.empty() ? "" : ",") + c;

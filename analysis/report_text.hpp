@@ -19,6 +19,13 @@ std::string report_as_text(const nlohmann::ordered_json& report);
 // In an ensemble an array column NAME is followed by NAME_sd and NAME_se.
 std::vector<std::pair<std::string, std::string>> report_as_csv(const nlohmann::ordered_json& report);
 
+// The single numbers and words of a report's sections under dotted keys (counts.z, stress.tensor.0.1), in its order; of
+// an ensemble {"mean", "sd", "se"}. Arrays that are columns, histograms and lists are left out.
+std::vector<std::pair<std::string, nlohmann::ordered_json>> report_scalars(const nlohmann::ordered_json& report);
+
+// One field of a CSV file: null is empty, a boolean 0 or 1, a real has 17 digits, words are quoted where they must be.
+std::string csv_field(const nlohmann::ordered_json& value);
+
 // Header and rows; integers as such, other reals with 17 digits.
 std::string table_as_csv(const Table& table);
 

@@ -5,6 +5,7 @@
 namespace isostat {
 
 int pack_command(int argc, char** argv);
+int study_command(int argc, char** argv);
 int analyze_command(int argc, char** argv);
 int info_command(int argc, char** argv);
 int draw_command(int argc, char** argv);

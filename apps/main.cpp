@@ -23,6 +23,7 @@ struct Command {
 const std::vector<Command>& commands() {
   static const std::vector<Command> list{
       {"pack", pack_command, "run a scene to its final state"},
+      {"study", study_command, "parameter sets times seeds: states, and one ensemble row a set"},
       {"lab", lab_command, "few-body experiments against closed forms; speed of the step loop"},
       {"analyze", analyze_command, "counts, equilibrium, stress, forces, percolation, ... of packings"},
       {"convert", convert_command, "state, network, CSV, LAMMPS dump, XYZ and ParaView files"},

@@ -1,27 +1,48 @@
 // isostat plot: from the options to charts of a result.
 #include "analysis/figure/plot.hpp"
+
 #include "analysis/figure/chart.hpp"
 #include "analysis/figure/figure_file.hpp"
+#include "analysis/figure/study_plot.hpp"
 #include "apps/arguments.hpp"
 #include "apps/commands.hpp"
+#include "dem/atomic_file.hpp"
+#include "dem/input_error.hpp"
 
 namespace isostat {
+namespace {
+
+// study.csv has no plot of its own choice: the axes are named.
+Plot plot_of(const Arguments& arguments, const std::string& path, const std::string& what) {
+  const auto x = arguments.value("--x"), y = arguments.value("--y");
+  if (what.empty() ? !x && !y : what != "study") {
+    if (x || y) throw InputError("command line", 0, x ? "--x" : "--y", "", "only with --what study");
+    return read_plot(path, what);
+  }
+  if (!x || !y) throw InputError("command line", 0, x ? "--y" : "--x", "", "is required with --what study");
+  return study_plot(parse_table(read_whole_file(path), path), *x, *y);
+}
+
+}  // namespace
 
 int plot_command(int argc, char** argv) {
   const Arguments arguments(
       argc, argv,
       {{"-o", "FILE", "the figure; its extension is the format: .svg, .pdf or .png"},
        {"--what", "PLOT",
-        "force-histogram, angle, NT, coordination, scattering, pores, series, law-fit or bench; default: the only one "
-        "that the file has data for"}},
-      {"RESULT.json|TABLE.csv -o FILE", "Plots results of analyze and lab, series of pack, and benchmark tables."});
+        "force-histogram, angle, NT, coordination, scattering, pores, series, law-fit, bench or study; default: the "
+        "only one that the file has data for"},
+       {"--x", "COLUMN", "study.csv: what to plot against; a name's end is enough (friction)"},
+       {"--y", "COLUMN", "study.csv: what to plot, with its standard error"}},
+      {"RESULT.json|TABLE.csv -o FILE",
+       "Plots results of analyze, lab and study, series of pack, and benchmark tables."});
   arguments.require_inputs(1, 1, "one result (.json) or table (.csv)");
   const std::string what = arguments
                                .choice("--what", {"force-histogram", "angle", "NT", "coordination", "scattering",
-                                                  "pores", "series", "law-fit", "bench"})
+                                                  "pores", "series", "law-fit", "bench", "study"})
                                .value_or("");
   const FigureFile file(arguments.required("-o"));
-  Plot plot = read_plot(arguments.inputs()[0], what);
+  Plot plot = plot_of(arguments, arguments.inputs()[0], what);
   const ChartFigure figure(std::move(plot.charts), plot.share_x);
   const auto canvas = file.canvas(figure.size());
   figure.draw(*canvas);

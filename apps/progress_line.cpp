@@ -12,6 +12,11 @@ namespace {
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
+constexpr double kRefresh = 0.2;       // [s]
+constexpr double kTrendMemory = 10.0;  // [s] the decline is measured over the last so many seconds or more
+
+}  // namespace
+
 std::string clock_text(double seconds) {
   if (!(seconds >= 0) || seconds > 99 * 3600.0) return "--:--";
   const int s = static_cast<int>(seconds + 0.5);
@@ -22,11 +27,6 @@ std::string clock_text(double seconds) {
     std::snprintf(text, sizeof text, "%dh%02d", s / 3600, s / 60 % 60);
   return text;
 }
-
-constexpr double kRefresh = 0.2;       // [s]
-constexpr double kTrendMemory = 10.0;  // [s] the decline is measured over the last so many seconds or more
-
-}  // namespace
 
 ProgressLine::ProgressLine(int stages, int samples)
     : stages_(stages), samples_(samples), terminal_(isatty(STDERR_FILENO) == 1), start_(now()) {}

@@ -7,6 +7,8 @@
 
 namespace isostat {
 
+std::string clock_text(double seconds);  // 02:35, 3h07; --:-- if not known
+
 class ProgressLine {
  public:
   ProgressLine(int stages, int samples);  // silent unless stderr is a terminal

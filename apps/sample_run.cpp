@@ -66,7 +66,7 @@ class SampleRun {
     } catch (const RunError& e) {
       outcome.code = exit_unfinished;
       outcome.blew_up = true;
-      outcome.messages = {std::string("the run blew up: ") + e.what() + "; the last sane state is in " + job_.output};
+      outcome.messages = {std::string("the run blew up: ") + e.what() + "; the last sane state is kept"};
       end(state, outcome, job_.output);
       return outcome;
     }

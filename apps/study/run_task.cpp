@@ -1,0 +1,108 @@
+#include "apps/study/run_task.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "apps/sample_run.hpp"
+#include "apps/study/process_pool.hpp"
+#include "apps/study/state_report.hpp"
+#include "dem/state_file.hpp"
+
+namespace isostat {
+namespace {
+
+constexpr double kTellSeconds = 0.25;
+
+// A state that came without a record: what it says of its own end.
+RunRecord adopted(const State& state) {
+  RunRecord record = record_of(state);
+  const bool all_stages = state.progress.stage == static_cast<std::int32_t>(state.scene.stages.size());
+  if (all_stages && (state.scene.stages.back().until == "time" || record.certified)) {
+    record.status = RunStatus::ok;
+  } else {
+    record.status = RunStatus::unfinished;
+    record.reason = "the state is not at the end of its last stage; there is no record of its run";
+  }
+  return record;
+}
+
+// Tells the parent how far the run is, a few times a second.
+class Teller {
+ public:
+  void operator()(const Progress& p, std::size_t stages) {
+    const auto now = std::chrono::steady_clock::now();
+    if (std::chrono::duration<double>(now - last_).count() < kTellSeconds) return;
+    last_ = now;
+    char text[160];
+    std::snprintf(text, sizeof text, "stage %d/%zu  t %.1f T0  Phi %.4f  %s %.3g x tolerance", p.stage + 1, stages,
+                  p.time, p.solid_fraction, p.last.name.c_str(), p.last.ratio);
+    TaskLink::send(text);
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_{};
+};
+
+RunRecord make_state(const StudyRun& run, bool tell_progress) {
+  const SampleJob job{run.set->scene, run.seed, run.state(), run.series(), run.command(), 1, 0, true};
+  double spent = 0;  // [s] in the parts before an interruption
+  if (std::filesystem::exists(partial_name(job.output)))
+    if (const auto before = read_record(run.record())) spent = before->cpu_seconds.value_or(0);
+  RunRecord record;
+  Teller tell;
+  SampleWatch watch;
+  watch.interrupted = TaskLink::stop_requested;
+  if (tell_progress) watch.progress = [&](const Progress& p) { tell(p, job.scene.stages.size()); };
+  // Before the state: a record without its state is not believed, a state without its record would have lost something.
+  watch.ended = [&](const State& state, const SampleOutcome& outcome) {
+    record = record_of(state);
+    record.status = outcome.code == exit_done          ? RunStatus::ok
+                    : outcome.code == exit_interrupted ? RunStatus::pending
+                    : outcome.blew_up                  ? RunStatus::failed
+                                                       : RunStatus::unfinished;
+    if (!outcome.blew_up) record.cpu_seconds = spent + outcome.run.cpu_seconds;
+    if (record.status == RunStatus::failed || record.status == RunStatus::unfinished)
+      for (const std::string& m : outcome.messages) record.reason += (record.reason.empty() ? "" : "; ") + m;
+    write_record(record, run.record());
+  };
+  run_sample(job, watch);
+  return record;
+}
+
+}  // namespace
+
+std::optional<RunRecord> settled_record(const StudyRun& run) {
+  if (!std::filesystem::exists(run.state())) return std::nullopt;
+  const StateFile file = read_state_file(run.state());
+  if (const auto record = read_record(run.record());
+      record && record->hash == file.hash && record->status != RunStatus::pending)
+    return record;
+  const RunRecord record = adopted(file.state);
+  write_record(record, run.record());
+  return record;
+}
+
+bool is_settled(const StudyRun& run, const StudyAnalysis& analysis) {
+  const auto record = settled_record(run);
+  if (!record) return false;
+  if (record->status != RunStatus::ok) return true;
+  for (const auto stage : analysed_stages(*run.set)) {
+    const auto report = stored_report(run.report(stage), run.state(stage), analysis.options);
+    if (!report || !has_sections(*report, analysis.sections)) return false;
+  }
+  return true;
+}
+
+int do_run(const StudyRun& run, const StudyAnalysis& analysis, bool tell_progress) {
+  auto record = settled_record(run);
+  if (!record) record = make_state(run, tell_progress);
+  if (record->status == RunStatus::pending) return exit_interrupted;
+  if (record->status != RunStatus::ok) return exit_unfinished;
+  TaskLink::may_be_cut_short();
+  for (const auto stage : analysed_stages(*run.set)) update_report(run.report(stage), run.state(stage), analysis);
+  return exit_done;
+}
+
+}  // namespace isostat

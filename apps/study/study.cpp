@@ -1,0 +1,89 @@
+#include "apps/study/study.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "dem/scene_keys.hpp"
+
+namespace isostat {
+namespace {
+
+std::string stage_suffix(std::optional<std::size_t> stage) {
+  return stage ? ".stage" + std::to_string(*stage) : std::string();
+}
+
+bool in_force(const SceneKey& key, const Scene& scene) {
+  return !(key.applies && !key.applies(scene)) && !(belongs_to_units(key) && !scene.units);
+}
+
+std::string unquoted(std::string text) {
+  return text.size() >= 2 && text.front() == '"' ? text.substr(1, text.size() - 2) : text;
+}
+
+}  // namespace
+
+std::string StudyRun::state(std::optional<std::size_t> stage) const {
+  return stage && *stage + 1 == set->scene.stages.size() ? state() : base + stage_suffix(stage) + ".h5";
+}
+
+std::string StudyRun::report(std::optional<std::size_t> stage) const {
+  return base + stage_suffix(stage) + ".analysis.json";
+}
+
+std::string StudyRun::command() const {
+  std::string text = "pack " + set->scene_path;
+  for (const auto& [key, value] : set->settings) text += " --set " + key + "=" + value;
+  return text;
+}
+
+std::vector<StudyRun> runs_of(const Study& study, const std::string& directory) {
+  std::vector<StudyRun> runs;
+  for (const ParameterSet& set : study.sets)
+    for (const std::uint64_t seed : set.seeds) {
+      char number[32];
+      std::snprintf(number, sizeof number, ".%04llu", static_cast<unsigned long long>(seed));
+      runs.push_back({&set, seed, (std::filesystem::path(directory) / (set.name + number)).string()});
+    }
+  return runs;
+}
+
+std::vector<std::optional<std::size_t>> analysed_stages(const ParameterSet& set) {
+  std::vector<std::optional<std::size_t>> stages(set.stages.begin(), set.stages.end());
+  if (stages.empty()) stages.emplace_back();
+  return stages;
+}
+
+// A setting of a stage is told as given: the resolved scene may have other stages than the file.
+std::string value_of(const ParameterSet& set, const std::string& name) {
+  const auto given =
+      std::find_if(set.settings.begin(), set.settings.end(), [&](const auto& s) { return s.first == name; });
+  for (const SceneKey& key : scene_keys()) {
+    const std::size_t copies = belongs_to_stage(key) ? set.scene.stages.size() : 1;
+    for (std::size_t stage = 0; stage < copies; ++stage) {
+      if (full_name(key, stage) != name) continue;
+      if (!in_force(key, set.scene)) return "";
+      if (belongs_to_stage(key) && given != set.settings.end()) return unquoted(given->second);
+      return unquoted(value_text(key, set.scene, stage));
+    }
+  }
+  return given == set.settings.end() ? "" : unquoted(given->second);
+}
+
+std::string first_difference(const Scene& there, const Scene& here) {
+  const std::size_t stages = std::min(there.stages.size(), here.stages.size());
+  for (const SceneKey& key : scene_keys()) {
+    const std::size_t copies = belongs_to_stage(key) ? stages : 1;
+    for (std::size_t stage = 0; stage < copies; ++stage) {
+      const std::string old_value = in_force(key, there) ? value_text(key, there, stage) : "";
+      const std::string new_value = in_force(key, here) ? value_text(key, here, stage) : "";
+      if (old_value == new_value) continue;
+      const auto shown = [](const std::string& text) { return text.empty() ? std::string("absent") : text; };
+      return full_name(key, stage) + " = " + shown(old_value) + ", not " + shown(new_value);
+    }
+  }
+  if (there.stages.size() == here.stages.size()) return "";
+  return std::to_string(there.stages.size()) + " stages, not " + std::to_string(here.stages.size());
+}
+
+}  // namespace isostat

@@ -1,0 +1,439 @@
+// The study's TOML file: rows, grid and seeds -> parameter sets, with every fault of the file and of the scenes it
+// makes.
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <tuple>
+
+#include "apps/study/study.hpp"
+#include "dem/atomic_file.hpp"
+#include "dem/input_error.hpp"
+#include "dem/scene_file.hpp"
+#include "dem/scene_keys.hpp"
+#include "dem/suggestion.hpp"
+
+namespace isostat {
+namespace {
+
+constexpr std::size_t kMostRuns = 1'000'000;
+constexpr const char* kStatesKey = "output.stages";  // scene key that keeps a state after each stage
+
+struct Setting {
+  std::string key, value;
+  int line = 0;
+};
+
+// One [[row]], before the grid multiplies it.
+struct Row {
+  std::string name, scene;
+  std::vector<Setting> settings;
+  std::vector<std::uint64_t> seeds;
+  std::vector<std::size_t> stages;
+  int line = 0;
+};
+
+struct GridAxis {
+  std::string key;
+  std::vector<Setting> choices;
+};
+
+std::string literal(const toml::node& node) {
+  if (const auto* real = node.as_floating_point()) return real_text(real->get());
+  if (const auto* text = node.as_string()) return quoted_text(text->get());
+  if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
+  if (const auto* array = node.as_array()) {
+    std::string text;
+    for (const toml::node& element : *array) text += (text.empty() ? "" : ", ") + literal(element);
+    return "[" + text + "]";
+  }
+  std::ostringstream out;
+  out << toml::node_view<const toml::node>(&node);
+  return out.str();
+}
+
+constexpr std::string_view kNameLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_+=";
+
+bool is_safe_name(const std::string& name) {
+  return !name.empty() && name.size() <= 150 && name.front() != '.' && name.front() != '-' &&
+         name.find_first_not_of(kNameLetters) == std::string::npos;
+}
+
+bool keeps_stage_states() {
+  return std::any_of(scene_keys().begin(), scene_keys().end(), [](const SceneKey& k) { return k.name == kStatesKey; });
+}
+
+class StudyParser {
+ public:
+  explicit StudyParser(std::string path) : path_(std::move(path)) {}
+
+  Study read() {
+    const std::string text = read_whole_file(path_);
+    try {
+      table_ = toml::parse(text, std::string_view(path_));
+    } catch (const toml::parse_error& error) {
+      throw InputError(path_, static_cast<int>(error.source().begin.line), "", "",
+                       "not valid TOML: " + std::string(error.description()));
+    }
+    Study study;
+    study.path = path_;
+    read_top(study);
+    read_rows();
+    read_grid();
+    if (faults_.empty()) make_sets(study);
+    if (!faults_.empty()) throw InputError(in_order());
+    return study;
+  }
+
+ private:
+  void fault(int line, const std::string& key, const std::string& value, const std::string& rule) {
+    if (told_.insert({path_, line, key, value, rule}).second) faults_.push_back({path_, line, key, value, rule});
+  }
+  std::vector<Fault> in_order() {
+    std::stable_sort(faults_.begin(), faults_.end(), [this](const Fault& a, const Fault& b) {
+      return std::pair(a.file != path_, a.line) < std::pair(b.file != path_, b.line);
+    });
+    return faults_;
+  }
+  static int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
+
+  void unknown(int line, const std::string& key, const std::vector<std::string>& known) {
+    std::vector<std::string> names = known;
+    for (const SceneKey& k : scene_keys()) names.push_back(full_name(k, 0));
+    const std::string hint = did_you_mean(key, names);
+    fault(line, key, "", "unknown key; " + (hint.empty() ? "docs/study.md lists all keys" : hint));
+  }
+
+  // --- the keys of the study itself ---
+
+  void read_top(Study& study) {
+    const std::vector<std::string> known{"scene", "seeds", "stages", "analyze", "analysis", "set", "row", "grid"};
+    std::vector<std::string> sections{"counts"};
+    for (const auto& [name, node] : table_) {
+      const std::string key(name.str());
+      if (key == "scene") {
+        scene_ = text_of(node, key);
+      } else if (key == "seeds") {
+        seeds_ = seeds_of(node, key);
+      } else if (key == "stages") {
+        stages_ = stages_of(node, key);
+      } else if (key == "analyze") {
+        sections = sections_of(node, key);
+      } else if (key == "analysis") {
+        read_options(node, study.analysis.options);
+      } else if (key == "set") {
+        read_settings(node, key, set_);
+      } else if (key != "row" && key != "grid") {
+        unknown(line_of(node), key, known);
+      }
+    }
+    study.analysis.sections = sections;
+  }
+
+  std::string text_of(const toml::node& node, const std::string& key) {
+    if (const auto* text = node.as_string(); text && !text->get().empty()) return text->get();
+    fault(line_of(node), key, literal(node), "a text that is not empty");
+    return "";
+  }
+
+  template <class Integer>
+  std::vector<Integer> distinct_integers(const toml::node& node, const std::string& key, const std::string& rule) {
+    std::vector<Integer> list;
+    const auto* array = node.as_array();
+    for (std::size_t k = 0; array && k < array->size(); ++k) {
+      const auto* value = array->get(k)->as_integer();
+      if (!value || value->get() < 0 ||
+          std::find(list.begin(), list.end(), static_cast<Integer>(value->get())) != list.end()) {
+        list.clear();
+        break;
+      }
+      list.push_back(static_cast<Integer>(value->get()));
+    }
+    if (list.empty()) fault(line_of(node), key, literal(node), rule);
+    return list;
+  }
+
+  std::vector<std::uint64_t> seeds_of(const toml::node& node, const std::string& key) {
+    const std::string rule = "a number of samples (seeds 1, 2, ...) or a list of different seeds >= 0";
+    const auto* count = node.as_integer();
+    if (!count) return distinct_integers<std::uint64_t>(node, key, rule);
+    std::vector<std::uint64_t> seeds;
+    if (count->get() < 1 || count->get() > static_cast<std::int64_t>(kMostRuns))
+      fault(line_of(node), key, literal(node), rule);
+    else
+      for (std::int64_t k = 1; k <= count->get(); ++k) seeds.push_back(static_cast<std::uint64_t>(k));
+    return seeds;
+  }
+
+  std::vector<std::size_t> stages_of(const toml::node& node, const std::string& key) {
+    if (const auto* one = node.as_integer(); one && one->get() >= 0) return {static_cast<std::size_t>(one->get())};
+    return distinct_integers<std::size_t>(node, key, "a stage or a list of different stages, counted from 0");
+  }
+
+  std::vector<std::string> sections_of(const toml::node& node, const std::string& key) {
+    std::vector<std::string> names, known;
+    for (const Section& s : sections()) known.emplace_back(s.name);
+    const auto* array = node.as_array();
+    if (!array || array->empty()) fault(line_of(node), key, literal(node), "a list of sections of `isostat analyze`");
+    for (std::size_t k = 0; array && k < array->size(); ++k) {
+      const auto* text = array->get(k)->as_string();
+      const std::string name = text ? text->get() : literal(*array->get(k));
+      const std::string hint = did_you_mean(name, known);
+      std::string all;
+      for (const std::string& s : known) all += (all.empty() ? "" : ", ") + s;
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        fault(line_of(*array->get(k)), key, quoted_text(name),
+              "no section; " + (hint.empty() ? "sections are " + all : hint));
+      else if (std::find(names.begin(), names.end(), name) == names.end())
+        names.push_back(name);
+    }
+    return names;
+  }
+
+  void read_options(const toml::node& node, AnalysisOptions& options) {
+    const toml::table* table = node.as_table();
+    if (!table) return fault(line_of(node), "analysis", literal(node), "is a table: write [analysis]");
+    for (const auto& [name, value] : *table) {
+      const std::string leaf(name.str()), key = "analysis." + leaf;
+      const auto text = value.value<std::string>();
+      const auto number = value.value<double>();
+      if (leaf == "law") {
+        if (text == "frictionless")
+          options.law = NetworkLaw::frictionless;
+        else if (text == "friction")
+          options.law = NetworkLaw::friction;
+        else if (text == "rolling")
+          options.law = NetworkLaw::rolling;
+        else
+          fault(line_of(value), key, literal(value), "one of \"friction\", \"frictionless\", \"rolling\"");
+      } else if (leaf == "cell") {
+        options.cell_free = text == "free";
+        if (text != "free" && text != "fixed") fault(line_of(value), key, literal(value), "one of \"fixed\", \"free\"");
+      } else if (leaf == "gap_tolerance") {
+        options.gap_tolerance = number;
+        if (!number || !(*number >= 0)) fault(line_of(value), key, literal(value), "a real >= 0 [a]");
+      } else if (leaf == "k_max") {
+        options.k_max = number.value_or(0);
+        if (!(options.k_max > 0)) fault(line_of(value), key, literal(value), "a real > 0 [1/a]");
+      } else {
+        unknown(line_of(value), key, {"analysis.law", "analysis.cell", "analysis.gap_tolerance", "analysis.k_max"});
+      }
+    }
+  }
+
+  // --- settings of scene keys ---
+
+  // A key with points may be written as such in quotes or as nested tables.
+  void flatten(const toml::node& node, const std::string& key,
+               const std::function<void(const std::string&, const toml::node&)>& leaf) {
+    const toml::table* table = node.as_table();
+    if (!table) return leaf(key, node);
+    for (const auto& [name, inner] : *table)
+      flatten(inner, (key.empty() ? "" : key + ".") + std::string(name.str()), leaf);
+  }
+
+  bool is_setting(const std::string& key, const toml::node& node) {
+    if (key == "seed") fault(line_of(node), key, literal(node), "the seeds of a study are its key seeds");
+    return key != "seed";
+  }
+
+  void add_setting(std::vector<Setting>& settings, const std::string& key, const toml::node& node) {
+    if (!is_setting(key, node)) return;
+    if (std::any_of(settings.begin(), settings.end(), [&](const Setting& s) { return s.key == key; }))
+      fault(line_of(node), key, literal(node), "given twice");
+    settings.push_back({key, literal(node), line_of(node)});
+  }
+
+  void read_settings(const toml::node& node, const std::string& table, std::vector<Setting>& settings) {
+    if (!node.is_table()) return fault(line_of(node), table, literal(node), "is a table: write [" + table + "]");
+    flatten(node, "", [&](const std::string& key, const toml::node& value) { add_setting(settings, key, value); });
+  }
+
+  void read_rows() {
+    const toml::node* node = table_.get("row");
+    const toml::array* array = node ? node->as_array() : nullptr;
+    if (node && (!array || array->empty() || !array->is_array_of_tables()))
+      return fault(line_of(*node), "row", "", "rows are an array of tables: write [[row]]");
+    for (std::size_t k = 0; array && k < array->size(); ++k) read_row(*array->get_as<toml::table>(k));
+    if (!node) rows_.push_back({std::filesystem::path(scene_).stem().string(), scene_, set_, seeds_, stages_, 0});
+    for (const Row& row : rows_) {
+      if (row.scene.empty() && !table_.contains("scene"))
+        fault(row.line, "scene", "", "missing: the scene file, at the top or in the row");
+      if (row.seeds.empty() && !table_.contains("seeds"))
+        fault(row.line, "seeds", "", "missing: how many samples, or which seeds, at the top or in the row");
+    }
+  }
+
+  void read_row(const toml::table& table) {
+    const std::vector<std::string> known{"name", "scene", "seeds", "stages"};
+    Row row{"", scene_, {}, seeds_, stages_, line_of(table)};
+    for (const auto& [name, node] : table) {
+      const std::string key(name.str());
+      if (key == "name") {
+        row.name = text_of(node, key);
+        if (!row.name.empty() && !is_safe_name(row.name))
+          fault(line_of(node), key, quoted_text(row.name),
+                "names files: at most 150 of the letters a-z A-Z 0-9 . - _ + =, not starting with . or -");
+      } else if (key == "scene") {
+        row.scene = text_of(node, key);
+      } else if (key == "seeds") {
+        row.seeds = seeds_of(node, key);
+      } else if (key == "stages" || (key == "stage" && !node.is_table())) {
+        row.stages = stages_of(node, key);
+      } else if (key.find('.') == std::string::npos && !node.is_table() && key != "seed") {
+        unknown(line_of(node), key, known);
+      } else {
+        flatten(node, key, [&](const std::string& k, const toml::node& v) { add_setting(row.settings, k, v); });
+      }
+    }
+    if (!table.contains("name")) fault(row.line, "name", "", "missing: every [[row]] has a name");
+    std::vector<Setting> all;  // what the row says replaces what holds for all rows
+    for (const Setting& s : set_)
+      if (std::none_of(row.settings.begin(), row.settings.end(), [&](const Setting& r) { return r.key == s.key; }))
+        all.push_back(s);
+    all.insert(all.end(), row.settings.begin(), row.settings.end());
+    row.settings = std::move(all);
+    rows_.push_back(std::move(row));
+  }
+
+  void read_grid() {
+    const toml::node* node = table_.get("grid");
+    if (!node) return;
+    if (!node->is_table()) return fault(line_of(*node), "grid", literal(*node), "is a table: write [grid]");
+    flatten(*node, "", [&](const std::string& key, const toml::node& value) {
+      if (!is_setting(key, value)) return;
+      const toml::array* array = value.as_array();
+      if (!array || array->empty()) return fault(line_of(value), "grid." + key, literal(value), "a list of values");
+      GridAxis axis{key, {}};
+      for (const toml::node& choice : *array) {
+        const std::string text = literal(choice);
+        if (std::any_of(axis.choices.begin(), axis.choices.end(), [&](const Setting& s) { return s.value == text; }))
+          fault(line_of(choice), "grid." + key, text, "given twice");
+        axis.choices.push_back({key, text, line_of(choice)});
+      }
+      for (const Row& row : rows_)
+        for (const Setting& s : row.settings)
+          if (s.key == key)
+            fault(line_of(value), "grid." + key, "",
+                  "also set in line " + std::to_string(s.line) + ": which one is meant?");
+      grid_.push_back(std::move(axis));
+    });
+  }
+
+  // --- parameter sets ---
+
+  // The part of a name that tells a choice: friction0.15, or the whole key where its last component is not enough.
+  std::string name_part(const GridAxis& axis, std::size_t choice) const {
+    const auto leaf = [](const std::string& key) { return key.substr(key.rfind('.') + 1); };
+    const auto same = std::count_if(grid_.begin(), grid_.end(),
+                                    [&](const GridAxis& other) { return leaf(other.key) == leaf(axis.key); });
+    std::string text = (same > 1 ? axis.key : leaf(axis.key)) + axis.choices[choice].value;
+    std::string safe;
+    for (const char c : text)
+      if (c != '"') safe += kNameLetters.find(c) == std::string_view::npos ? '_' : c;
+    return "-" + safe;
+  }
+
+  void make_sets(Study& study) {
+    std::size_t points = 1;
+    for (const GridAxis& axis : grid_) points = std::min(points * axis.choices.size(), kMostRuns + 1);
+    if (points * rows_.size() > kMostRuns)
+      return fault(0, "grid", "", "makes more than " + std::to_string(kMostRuns) + " parameter sets");
+    std::set<std::string> names;
+    for (const Row& row : rows_)
+      for (std::size_t point = 0; point < points; ++point) {
+        std::string name = row.name;
+        std::vector<Setting> settings = row.settings;
+        std::size_t rest = point, block = points;
+        for (const GridAxis& axis : grid_) {  // the last axis runs fastest
+          block /= axis.choices.size();
+          settings.push_back(axis.choices[rest / block]);
+          name += name_part(axis, rest / block);
+          rest %= block;
+        }
+        add_set(study, row, name, std::move(settings));
+        const ParameterSet& set = study.sets.back();
+        bool fresh = names.insert(set.name).second;
+        for (const std::size_t stage : set.stages)
+          fresh = names.insert(set.name + ".stage" + std::to_string(stage)).second && fresh;
+        if (!fresh) fault(row.line, "name", quoted_text(set.name), "names two parameter sets");
+        if (!is_safe_name(set.name)) fault(row.line, "name", quoted_text(set.name), "too long, or no name of a file");
+      }
+  }
+
+  void add_set(Study& study, const Row& row, std::string name, std::vector<Setting> settings) {
+    ParameterSet set;
+    set.name = std::move(name);
+    set.scene_path = (std::filesystem::path(path_).parent_path() / row.scene).string();
+    set.seeds = row.seeds;
+    set.stages = row.stages;
+    for (const Setting& s : settings)
+      if (std::find(study.keys.begin(), study.keys.end(), s.key) == study.keys.end()) study.keys.push_back(s.key);
+    std::optional<Scene> scene = resolved(set, settings);
+    if (scene && !set.stages.empty() && check_stages(row, set.name, set.stages, scene->stages.size() - 1)) {
+      std::erase_if(settings, [](const Setting& s) { return s.key == kStatesKey; });
+      settings.push_back({kStatesKey, "true", row.line});
+      scene = resolved(set, settings);
+    }
+    if (scene) set.scene = *scene;
+    for (Setting& s : settings) set.settings.emplace_back(std::move(s.key), std::move(s.value));
+    study.sets.push_back(std::move(set));
+  }
+
+  // Whether states after other stages than the last are needed, and can be had.
+  bool check_stages(const Row& row, const std::string& name, const std::vector<std::size_t>& stages, std::size_t last) {
+    bool between = false, possible = true;
+    for (const std::size_t stage : stages) {
+      between = between || stage < last;
+      if (stage <= last && (stage == last || keeps_stage_states())) continue;
+      possible = false;
+      fault(row.line, "stages", std::to_string(stage),
+            (stage > last ? "no such stage in " + name + ": the last is "
+                          : "only the state after the last stage is kept by this version, in " + name + " ") +
+                std::to_string(last) + ", counted from 0");
+    }
+    return between && possible;
+  }
+
+  // Faults of a setting stand at its line of the study; the same one in many sets is told once.
+  std::optional<Scene> resolved(const ParameterSet& set, const std::vector<Setting>& settings) {
+    std::vector<std::string> overrides;
+    for (const Setting& s : settings) overrides.push_back(s.key + "=" + s.value);
+    try {
+      return read_scene(set.scene_path, overrides);
+    } catch (const InputError& error) {
+      for (Fault f : error.faults()) {
+        if (f.file == "--set") {
+          f.file = path_;
+          for (const Setting& s : settings)
+            if (s.key == f.key) f.line = s.line;
+        }
+        if (!told_.insert({f.file, f.line, f.key, f.value, f.rule}).second) continue;
+        f.rule += " (in " + set.name + ")";
+        faults_.push_back(std::move(f));
+      }
+      return std::nullopt;
+    }
+  }
+
+  std::string path_;
+  toml::table table_;
+  std::string scene_;
+  std::vector<std::uint64_t> seeds_;
+  std::vector<std::size_t> stages_;
+  std::vector<Setting> set_;
+  std::vector<Row> rows_;
+  std::vector<GridAxis> grid_;
+  std::vector<Fault> faults_;
+  std::set<std::tuple<std::string, int, std::string, std::string, std::string>> told_;
+};
+
+}  // namespace
+
+Study read_study(const std::string& path) { return StudyParser(path).read(); }
+
+}  // namespace isostat

@@ -1,0 +1,70 @@
+#include "apps/study/study_progress.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "apps/progress_line.hpp"
+
+namespace isostat {
+namespace {
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+constexpr double kMostOfARun = 0.95;  // a run that takes longer than expected counts as done to so much
+
+}  // namespace
+
+StudyProgress::StudyProgress(std::vector<double> work, std::size_t total, std::size_t done_before,
+                             std::size_t at_a_time)
+    : work_(std::move(work)),
+      total_(total),
+      done_(done_before),
+      at_a_time_(at_a_time),
+      terminal_(isatty(STDERR_FILENO) == 1),
+      start_(now()) {}
+
+StudyProgress::~StudyProgress() { clear_line(); }
+
+void StudyProgress::clear_line() const {
+  if (terminal_) std::fputs("\r\033[K", stderr);
+}
+
+void StudyProgress::started(std::size_t task) { at_work_[task] = now(); }
+
+void StudyProgress::tells(std::size_t, const std::string& name, const std::string& how_far) {
+  last_told_ = name + ": " + how_far;
+}
+
+void StudyProgress::ended(std::size_t task, const std::string& name, const std::string& how) {
+  const double seconds = now() - at_work_[task];
+  at_work_.erase(task);
+  work_done_ += work_[task];
+  seconds_done_ += seconds;
+  ++done_;
+  clear_line();
+  std::fprintf(stderr, "[%zu/%zu] %s: %s, %s\n", done_, total_, name.c_str(), how.c_str(), clock_text(seconds).c_str());
+}
+
+// By the speed of the runs that have ended; nothing can be said before the first has.
+double StudyProgress::seconds_left() const {
+  if (!(work_done_ > 0)) return NAN;
+  const double speed = work_done_ / seconds_done_;  // of one place
+  double left = -work_done_;
+  for (const double w : work_) left += w;
+  for (const auto& [task, since] : at_work_) left -= std::min(kMostOfARun * work_[task], speed * (now() - since));
+  const std::size_t places = std::clamp<std::size_t>(total_ - done_, 1, at_a_time_);
+  return left / (speed * static_cast<double>(places));
+}
+
+void StudyProgress::show() {
+  if (!terminal_) return;
+  std::fprintf(stderr, "\r\033[K%zu of %zu runs done, %zu at work  %s, ETA %s  %s", done_, total_, at_work_.size(),
+               clock_text(now() - start_).c_str(), clock_text(seconds_left()).c_str(), last_told_.c_str());
+  std::fflush(stderr);
+}
+
+}  // namespace isostat
