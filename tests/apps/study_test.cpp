@@ -163,7 +163,7 @@ TEST_F(Study, InterruptedStudiesResumeToTheSameBits) {
   write("study.toml", R"(scene = "scene.toml"
 seeds = 3
 [set]
-stage.1.time = 1500
+stage.1.time = 800
 output.series = "on"
 )");
   ASSERT_EQ(run(study("straight", "-j 2")).code, 0);
