@@ -16,12 +16,12 @@
 #include "apps/study/process_pool.hpp"
 #include "apps/study/run_record.hpp"
 #include "apps/study/run_task.hpp"
+#include "apps/study/state_digest.hpp"
 #include "apps/study/study.hpp"
 #include "apps/study/study_progress.hpp"
 #include "apps/study/study_tables.hpp"
 #include "dem/atomic_file.hpp"
 #include "dem/input_error.hpp"
-#include "dem/state_file.hpp"
 #include "dem/text_output.hpp"
 
 namespace isostat {
@@ -68,7 +68,7 @@ void check_existing(const std::vector<StudyRun>& runs, bool fresh) {
       if (!fs::exists(path)) continue;
       std::string difference;
       try {
-        const State state = read_state(path);
+        const StateDigest& state = state_digest(path);
         if (state.seed != run.seed)
           difference = "seed = " + std::to_string(state.seed) + ", not " + std::to_string(run.seed);
         else

@@ -1,5 +1,7 @@
 #include "apps/study/run_task.hpp"
 
+#include <dlfcn.h>
+
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -7,6 +9,7 @@
 
 #include "apps/sample_run.hpp"
 #include "apps/study/process_pool.hpp"
+#include "apps/study/state_digest.hpp"
 #include "apps/study/state_report.hpp"
 #include "dem/state_file.hpp"
 
@@ -26,6 +29,12 @@ RunRecord adopted(const State& state) {
     record.reason = "the state is not at the end of its last stage; there is no record of its run";
   }
   return record;
+}
+
+// The sparse solvers would take all cores for a run's analysis. They bring their OpenMP along; without it there is
+// nothing to restrain.
+void use_one_thread() {
+  if (void* symbol = ::dlsym(RTLD_DEFAULT, "omp_set_num_threads")) reinterpret_cast<void (*)(int)>(symbol)(1);
 }
 
 // Tells the parent how far the run is, a few times a second.
@@ -75,11 +84,10 @@ RunRecord make_state(const StudyRun& run, bool tell_progress) {
 
 std::optional<RunRecord> settled_record(const StudyRun& run) {
   if (!std::filesystem::exists(run.state())) return std::nullopt;
-  const StateFile file = read_state_file(run.state());
   if (const auto record = read_record(run.record());
-      record && record->hash == file.hash && record->status != RunStatus::pending)
+      record && record->hash == state_digest(run.state()).hash && record->status != RunStatus::pending)
     return record;
-  const RunRecord record = adopted(file.state);
+  const RunRecord record = adopted(read_state(run.state()));
   write_record(record, run.record());
   return record;
 }
@@ -96,6 +104,7 @@ bool is_settled(const StudyRun& run, const StudyAnalysis& analysis) {
 }
 
 int do_run(const StudyRun& run, const StudyAnalysis& analysis, bool tell_progress) {
+  use_one_thread();
   auto record = settled_record(run);
   if (!record) record = make_state(run, tell_progress);
   if (record->status == RunStatus::pending) return exit_interrupted;

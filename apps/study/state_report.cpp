@@ -6,9 +6,9 @@
 
 #include "analysis/load_input.hpp"
 #include "analysis/version.hpp"
+#include "apps/study/state_digest.hpp"
 #include "dem/atomic_file.hpp"
 #include "dem/scene_keys.hpp"
-#include "dem/state_file.hpp"
 
 namespace isostat {
 namespace {
@@ -16,10 +16,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // All that a report depends on beside its sections.
-Json key_of(const StateFile& file, const AnalysisOptions& options) {
+Json key_of(const std::string& state_path, const AnalysisOptions& options) {
+  const StateDigest& state = state_digest(state_path);
   return {{"isostat", version()},
-          {"hash", file.hash},
-          {"scene", scene_to_toml(file.state.scene)},
+          {"hash", state.hash},
+          {"scene", scene_to_toml(state.scene)},
           {"law", options.law ? Json(static_cast<int>(*options.law)) : Json()},
           {"cell_free", options.cell_free},
           {"gap_tolerance", options.gap_tolerance ? Json(*options.gap_tolerance) : Json()},
@@ -45,11 +46,12 @@ bool has_sections(const Json& report, const std::vector<std::string>& sections) 
 
 std::optional<Json> stored_report(const std::string& path, const std::string& state_path,
                                   const AnalysisOptions& options) {
-  return stored(path, key_of(read_state_file(state_path), options));
+  if (!std::filesystem::exists(state_path)) return std::nullopt;
+  return stored(path, key_of(state_path, options));
 }
 
 void update_report(const std::string& path, const std::string& state_path, const StudyAnalysis& analysis) {
-  const Json key = key_of(read_state_file(state_path), analysis.options);
+  const Json key = key_of(state_path, analysis.options);
   const Json old = stored(path, key).value_or(Json::object());
   std::vector<std::string> missing;
   for (const std::string& s : analysis.sections)

@@ -1,5 +1,6 @@
 #include "apps/study/study_progress.hpp"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -62,8 +63,13 @@ double StudyProgress::seconds_left() const {
 
 void StudyProgress::show() {
   if (!terminal_) return;
-  std::fprintf(stderr, "\r\033[K%zu of %zu runs done, %zu at work  %s, ETA %s  %s", done_, total_, at_work_.size(),
-               clock_text(now() - start_).c_str(), clock_text(seconds_left()).c_str(), last_told_.c_str());
+  std::string line = std::to_string(done_) + " of " + std::to_string(total_) + " runs done, " +
+                     std::to_string(at_work_.size()) + " at work  " + clock_text(now() - start_) + ", ETA " +
+                     clock_text(seconds_left()) + "  " + last_told_;
+  winsize window{};
+  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 1 && line.size() >= window.ws_col)
+    line.resize(window.ws_col - 1u);  // a line that wraps could not be written over
+  std::fprintf(stderr, "\r\033[K%s", line.c_str());
   std::fflush(stderr);
 }
 

@@ -357,6 +357,18 @@ TEST_F(Study, AFailedAnalysisIsListed) {
   EXPECT_THAT(table("out/runs.csv").find("status")->text, ElementsAre("ok"));
 }
 
+TEST_F(Study, AnEnsembleTellsItsStage) {
+  write("study.toml", "scene = \"scene.toml\"\nseeds = 2\n[[row]]\nname = \"a\"\nstage = 1\n[[row]]\nname = \"b\"\n");
+  ASSERT_EQ(run(study("out")).code, 0);
+  const DataTable t = table("out/study.csv");
+  ASSERT_EQ(t.columns[1].name, "stage");
+  EXPECT_THAT(t.columns[1].text, ElementsAre("1", ""));
+  EXPECT_EQ(at(t, "counts.z", 0), at(t, "counts.z", 1)) << "the last stage is where a run ends";
+  EXPECT_TRUE(exists("out/a.stage1.report.json") && exists("out/b.report.json"));
+  write("study.toml", "scene = \"scene.toml\"\nseeds = 2\n[[row]]\nname = \"a\"\nstages = [1, 2]\n");
+  EXPECT_THAT(run(study("new")).err, HasSubstr("no such stage in a: the last is 1"));
+}
+
 TEST_F(Study, ItsTableIsPlotted) {
   write("study.toml", R"(scene = "scene.toml"
 seeds = 2
