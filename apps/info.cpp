@@ -78,7 +78,7 @@ Json si_json(const State& state, const Scales& s) {
           {"F0", number(si.force)},
           {"T0", times(s.time, si.time)},
           {"V*", times(s.velocity, si.velocity())},
-          {"P", times(state.imposed_pressure, si.pressure())},
+          {"P", times(largest_stress(state.imposed_stress), si.pressure())},
           {"K_N", number(state.law.normal_stiffness * si.pressure())},
           {"dt", number(s.time_step * si.time)},
           {"dt_critical", number(s.critical_time_step * si.time)},

@@ -79,7 +79,7 @@ ExitCode run_one(const PackJob& job, int k, ProgressLine& line, RunOutcome& tota
 
 void print_scales(const PackJob& job, const State& state) {
   State first = state;
-  first.imposed_pressure = job.scene.stages.empty() ? std::nullopt : job.scene.stages.front().pressure;
+  first.imposed_stress = job.scene.stages.empty() ? ImposedStress{} : imposed_stress(job.scene.stages.front());
   const Scales s = scales(first);
   auto text = [](std::optional<double> x) {
     char buffer[32];

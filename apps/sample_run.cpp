@@ -88,6 +88,11 @@ class SampleRun {
 
  private:
   std::string partial() const { return partial_name(job_.output); }
+  // STATE.LABEL.h5
+  std::string beside(const std::string& label) const {
+    const std::filesystem::path p(job_.output);
+    return (p.parent_path() / (p.stem().string() + "." + label + p.extension().string())).string();
+  }
 
   void write(const State& state, const std::string& path) const {
     write_state(state, path, {std::string(version()), {}, job_.command});
@@ -124,6 +129,11 @@ class SampleRun {
     hooks.checkpoint_seconds = kCheckpointSeconds;
     hooks.max_time = job_.max_time;
     const OutputScene& o = job_.scene.output;
+    if (o.stages)
+      hooks.stage_end = [this](const State& s) {
+        const auto next = static_cast<std::size_t>(s.progress.stage);
+        if (next < job_.scene.stages.size()) write(s, beside("stage" + std::to_string(next - 1)));
+      };
     if (!job_.series.empty()) {
       series_ = std::make_unique<SeriesFile>(job_.series, o.energies, resumed_at_);
       hooks.observe = [this](const State& s) { series_->add(s); };
@@ -132,9 +142,8 @@ class SampleRun {
     if (!o.snapshot_times.empty() || !o.snapshot_solid_fractions.empty())
       hooks.snapshot = [this, count = snapshots_before(state)](const State& s) mutable {
         char number[24];
-        std::snprintf(number, sizeof number, ".snapshot%04d", ++count);
-        const std::filesystem::path p(job_.output);
-        write(s, (p.parent_path() / (p.stem().string() + number + p.extension().string())).string());
+        std::snprintf(number, sizeof number, "snapshot%04d", ++count);
+        write(s, beside(number));
       };
     return hooks;
   }

@@ -55,8 +55,8 @@ double kinetic_energy_per_grain(const Bodies<2>& bodies, const std::vector<BodyL
 
 }  // namespace
 
-double force_scale(const LawParameters& law, std::optional<double> imposed_pressure) {
-  const double scale = std::max(law.attraction, imposed_pressure.value_or(0.0));
+double force_scale(const LawParameters& law, const ImposedStress& imposed) {
+  const double scale = std::max(law.attraction, std::abs(largest_stress(imposed).value_or(0.0)));
   return scale > 0 ? scale : 1.0;
 }
 
@@ -94,14 +94,14 @@ StressTensor measured_stress(const Packing<2>& packing) {
   return {s.xx / area, s.xy / area, s.yx / area, s.yy / area};
 }
 
-Certificate evaluate_certificate(const Packing<2>& packing, const LawParameters& law,
-                                 std::optional<double> imposed_pressure, const EquilibriumScene& tolerance) {
+Certificate evaluate_certificate(const Packing<2>& packing, const LawParameters& law, const ImposedStress& imposed,
+                                 const EquilibriumScene& tolerance) {
   Certificate c;
-  c.force_scale = force_scale(law, imposed_pressure);
+  c.force_scale = force_scale(law, imposed);
   c.tolerance_force = tolerance.force;
   c.tolerance_pressure = tolerance.pressure;
   c.tolerance_kinetic = tolerance.kinetic_energy;
-  c.pressure_controlled = imposed_pressure.has_value() && packing.cell.has_value();
+  c.pressure_controlled = largest_stress(imposed).has_value() && packing.cell.has_value();
 
   std::vector<BodyLoad> loads(packing.bodies.size());
   StressTensor stress;
@@ -131,16 +131,16 @@ Certificate evaluate_certificate(const Packing<2>& packing, const LawParameters&
   if (c.pressure_controlled) {
     add_kinetic(stress, packing.bodies);
     const double area = packing.cell->measure();
-    c.pressure_error =
-        largest_of(std::abs(stress.xx / area - *imposed_pressure), std::abs(stress.yy / area - *imposed_pressure)) /
-        c.force_scale;
+    if (imposed[0]) c.pressure_error = std::abs(stress.xx / area - *imposed[0]) / c.force_scale;
+    if (imposed[1])
+      c.pressure_error = largest_of(c.pressure_error, std::abs(stress.yy / area - *imposed[1]) / c.force_scale);
   }
   c.equilibrated = worst_criterion(c).ratio < 1;
   return c;
 }
 
 Certificate evaluate_certificate(const State& state) {
-  Certificate c = evaluate_certificate(state.packing, state.law, state.imposed_pressure, state.scene.equilibrium);
+  Certificate c = evaluate_certificate(state.packing, state.law, state.imposed_stress, state.scene.equilibrium);
   c.finishing = state.certificate.finishing;
   return c;
 }

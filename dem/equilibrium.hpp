@@ -16,7 +16,7 @@ inline constexpr double kYieldTolerance = 1e-6;
 inline constexpr double kLoadTolerance = 1e-4;
 
 // F1 = max(F0, a P) [F0], a = 1 the largest diameter; the unit of force where neither is positive.
-double force_scale(const LawParameters& law, std::optional<double> imposed_pressure);
+double force_scale(const LawParameters& law, const ImposedStress& imposed);
 
 // Normal force of the static law (Eqs. 4-5) at the gap h: [F0], repulsion positive.
 double static_normal_force(double gap, const LawParameters& law);
@@ -39,9 +39,9 @@ StressTensor measured_stress(const Packing<2>& packing);
 
 // O(grains + links). The kinetic energy is a mean over grains; without cohesion the grains that touch nothing do not
 // count (they keep their spin for ever) unless none touches, and without friction spins do not count (no force acts on
-// them). The pressure criterion applies with an imposed pressure and a cell. `finishing` is left at "none".
-Certificate evaluate_certificate(const Packing<2>& packing, const LawParameters& law,
-                                 std::optional<double> imposed_pressure, const EquilibriumScene& tolerance);
+// them). The pressure criterion applies to the directions with an imposed stress. `finishing` is left at "none".
+Certificate evaluate_certificate(const Packing<2>& packing, const LawParameters& law, const ImposedStress& imposed,
+                                 const EquilibriumScene& tolerance);
 // From everything a state holds; keeps the state's record of its finishing method.
 Certificate evaluate_certificate(const State& state);
 

@@ -261,8 +261,7 @@ void NeighbourLists::filter_inner(const BodiesStore& bodies, const std::vector<P
     const BodyConstants &a = bodies.constants[i], &b = bodies.constants[j];
     i_[to] = row_offset(i), j_[to] = row_offset(j), shift_[to] = outer_shift_[k];
     radius_sum_[to] = a.radius + b.radius;
-    // zeta times the critical damping of the pair (Gilabert 2007, Eq. 6)
-    damping_coefficient_[to] = damping_ * std::sqrt(4 * stiffness_ / (a.inverse_mass + b.inverse_mass));
+    damping_coefficient_[to] = damping_of(a, b);
     for (auto h = static_cast<std::size_t>(history_begin[i]); h < static_cast<std::size_t>(history_begin[i + 1]); ++h)
       if (history[h].j == outer_j_[k] && history[h].shift == outer_shift_[k])
         tangential_[to] = history[h].tangential, moment_[to] = history[h].moment;
@@ -274,6 +273,19 @@ void NeighbourLists::filter_inner(const BodiesStore& bodies, const std::vector<P
     const auto group = static_cast<int>(s / 2);
     const int phase = group < chunks_ ? 0 : group < 2 * chunks_ ? 1 + (group - chunks_) % 2 : 3;
     phases_[phase].push_back({begin[s], begin[s + 1], begin[s + 2]});
+  }
+}
+
+// zeta times the critical damping of the pair (Gilabert 2007, Eq. 6)
+double NeighbourLists::damping_of(const BodyConstants& a, const BodyConstants& b) const {
+  return damping_ * std::sqrt(4 * stiffness_ / (a.inverse_mass + b.inverse_mass));
+}
+
+void NeighbourLists::set_stiffness(double stiffness, const BodiesStore& bodies) {
+  stiffness_ = stiffness;
+  for (std::size_t k = 0; k < i_.size(); ++k) {
+    const auto i = static_cast<std::size_t>(body_at(i_[k])), j = static_cast<std::size_t>(body_at(j_[k]));
+    if (i < bodies_) damping_coefficient_[k] = damping_of(bodies.constants[i], bodies.constants[j]);
   }
 }
 

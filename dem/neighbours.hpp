@@ -45,6 +45,7 @@ class NeighbourLists {
     if (!(inner_travel_ <= inner_skin_)) rebuild(bodies, cell, pair_displacement);
   }
 
+  void set_stiffness(double stiffness, const BodiesStore& bodies);  // K_N [F0/a], for the damping coefficients
   PairArrays arrays();
   const std::vector<PairGroup>& phase(int p) const { return phases_[p]; }  // 0: chunks, 1-2: between, 3: the rest
   static constexpr int kPhases = 4;
@@ -80,6 +81,7 @@ class NeighbourLists {
   std::vector<PairMemory> histories() const;
   double outer_skin_for(const PeriodicCell<2>& cell) const;
   double inner_skin_for(double pair_displacement) const;
+  double damping_of(const BodyConstants& a, const BodyConstants& b) const;
   std::size_t segment_of(std::int32_t i, std::int32_t j, std::uint8_t shift) const;
   int chunk_of(std::int32_t body) const;
 

@@ -7,8 +7,10 @@
 #include <numbers>
 #include <numeric>
 
+#include "dem/clusters.hpp"
 #include "dem/energy.hpp"
 #include "dem/random.hpp"
+#include "dem/sample.hpp"
 
 namespace isostat {
 namespace {
@@ -73,21 +75,46 @@ void agitate(State& s, double rms) {
   s.ledger.injected += after - before;
 }
 
+// The step of a stage in which K_N changes is right for the stiffest contacts. Half-step velocities are those at
+// time - dt/2.
+void set_time_step(State& s, const StageScene& stage) {
+  const double stiffest = std::max(s.law.normal_stiffness, stage.normal_stiffness.value_or(0));
+  const double dt = time_step(s.scene, stiffest, s.packing.bodies), earlier = 0.5 * (s.time_step - dt);
+  if (dt == s.time_step) return;
+  s.time_step = dt;
+  SolverMemory& m = s.memory;
+  const Bodies<2>& b = s.packing.bodies;
+  for (std::size_t k = 0; k < m.half_velocity.size(); ++k) {
+    m.half_velocity[k] += (earlier / b.mass[k]) * m.force[k];
+    m.half_spin[k] += earlier * m.torque[k] / b.inertia[k];
+  }
+}
+
+Vec2 static_stress(const State& s) {
+  const StressTensor stress = measured_stress(s.packing);
+  return {{stress.xx, stress.yy}};
+}
+
 // The opening actions of a stage.
 void open_stage(State& s, const StageScene& stage) {
+  set_time_step(s, stage);
   s.progress.started = true;
+  s.progress.start_stiffness = s.law.normal_stiffness;
+  s.progress.start_stress = static_stress(s);
+  s.progress.peak_stress = 0;
   s.progress.start_time = s.time;
   s.progress.drag_on = false;
   s.progress.quiet_since = s.time;
   s.cell_motion.reference_length = s.packing.cell->length;
   s.cell_motion.strain_rate = {};
-  s.imposed_pressure = stage.pressure;
+  s.imposed_stress = imposed_stress(stage);
   if (stage.velocity > 0) agitate(s, stage.velocity * std::sqrt(s.law.attraction * s.law.attraction_range));
 }
 
 CellControl cell_control(const State& s, const StageScene& stage) {
   CellControl c;
-  c.pressure = stage.pressure;
+  c.stress = imposed_stress(stage);
+  c.strain_rate = {{stage.strain_rate_1.value_or(0), stage.strain_rate_2.value_or(0)}};
   c.max_strain_rate = stage.max_strain_rate;
   // In the order of size: the storage order, which changes in the run, must not show in the last bit after a restart.
   std::vector<double> masses = s.packing.bodies.mass;
@@ -105,6 +132,9 @@ std::int64_t check_interval(double time_step) {
 double wall_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
+
+constexpr std::int64_t kStiffenEvery = 10;  // [steps] K_N changes by 1e-4 or so each time
+constexpr double kFailureNoise = 1e-3;      // [F1/a] changes of stress below are no peak
 
 constexpr std::int64_t kGrainStepsPerSlice = 10'000'000;  // about a tenth of a second between polls
 
@@ -138,6 +168,7 @@ class StageRun {
         certify();
         return false;
       }
+      stiffen();
       solver_.run(steps_to_next_stop());
       observe();
     }
@@ -147,6 +178,19 @@ class StageRun {
  private:
   double end_time() const { return stage_.until == "time" ? s_.progress.start_time + stage_.time : INFINITY; }
   bool at_end() const { return solver_.time() >= end_time() - 0.5 * s_.time_step; }
+  bool waits_for_equilibrium() const { return stage_.until == "equilibrium" || stage_.until == "aggregated"; }
+
+  bool stiffening() const { return stage_.normal_stiffness && s_.law.normal_stiffness != *stage_.normal_stiffness; }
+  // K_N on its way from what it was to what the stage wants, as a function of time alone.
+  void stiffen() {
+    if (!stiffening() || solver_.steps() % kStiffenEvery != 0) return;
+    const double from = s_.progress.start_stiffness, to = *stage_.normal_stiffness;
+    const double part = (solver_.time() - s_.progress.start_time) / stage_.stiffening_time;
+    LawScene law = s_.scene.law;
+    law.normal_stiffness = part < 1 ? from * std::pow(to / from, part) : to;
+    s_.law = resolve(law);
+    solver_.set_law(s_.law);
+  }
 
   std::int64_t steps_to_next_stop() const {
     std::int64_t steps = std::min(slice_, interval_ - solver_.steps() % interval_);
@@ -156,6 +200,7 @@ class StageRun {
     if (hooks_.snapshot)
       for (double t : s_.scene.output.snapshot_times)
         if (t > solver_.time() + 0.5 * s_.time_step) stop = std::min(stop, t);
+    if (stiffening()) steps = std::min(steps, kStiffenEvery - solver_.steps() % kStiffenEvery);
     if (std::isfinite(stop))
       steps = std::clamp<std::int64_t>(std::llround((stop - solver_.time()) / s_.time_step), 1, steps);
     return steps;
@@ -190,7 +235,7 @@ class StageRun {
 
   void certify() {
     const std::string finishing = s_.progress.drag_on ? "drag" : s_.certificate.finishing;
-    s_.certificate = evaluate_certificate(s_.packing, s_.law, s_.imposed_pressure, s_.scene.equilibrium);
+    s_.certificate = evaluate_certificate(s_.packing, s_.law, s_.imposed_stress, s_.scene.equilibrium);
     s_.certificate.finishing = finishing;
   }
 
@@ -208,20 +253,60 @@ class StageRun {
     }
   }
 
-  // Everything that is decided about a run is decided here, at fixed steps, whoever watches.
-  bool over(StageOutcome& outcome) const {
-    outcome = {s_.progress.stage, true, s_.time, stage_.until};
-    if (stage_.until == "time" ? at_end() : s_.certificate.equilibrated) return true;
-    outcome.met = false;
+  bool driven(int direction) const {
+    return (direction == 0 ? stage_.strain_rate_1 : stage_.strain_rate_2).value_or(0) != 0;
+  }
+  double strain() const {
+    double largest = 0;
+    for (int a = 0; a < 2; ++a)
+      if (driven(a))
+        largest = std::max(largest, std::abs(1 - solver_.cell().length[a] / s_.cell_motion.reference_length[a]));
+    return largest;
+  }
+  // Change of the stress of the driven directions since the stage began [F0/a].
+  double stress_change() const {
+    const Vec2 change = static_stress(s_) - s_.progress.start_stress;
+    return std::max(driven(0) ? std::abs(change[0]) : 0.0, driven(1) ? std::abs(change[1]) : 0.0);
+  }
+  void follow_peak() {
+    if (stage_.until == "failure") s_.progress.peak_stress = std::max(s_.progress.peak_stress, stress_change());
+  }
+  bool failed() const {
+    const double peak = s_.progress.peak_stress;
+    return peak > kFailureNoise * s_.certificate.force_scale && stress_change() < (1 - stage_.drop) * peak;
+  }
+
+  bool end_met() const {
+    if (stage_.until == "time") return at_end();
+    if (stage_.until == "strain") return strain() >= stage_.strain;
+    if (stage_.until == "failure") return failed();
+    return !stiffening() && s_.certificate.equilibrated &&
+           (stage_.until != "aggregated" || count_clusters(s_.packing) == 1);
+  }
+  // What keeps the stage from its end.
+  std::string missing() const {
+    if (stage_.until == "strain") return "the strain is " + std::to_string(strain());
+    if (stage_.until == "failure") return "the peak stress has not dropped by stage.drop";
+    if (stiffening()) return "K_N is still changing";
+    if (s_.certificate.equilibrated) return std::to_string(count_clusters(s_.packing)) + " clusters";
     const WorstCriterion worst = worst_criterion(s_.certificate);
-    const std::string missing = worst.name + " is " + std::to_string(worst.ratio) + " times its tolerance";
+    return worst.name + " is " + std::to_string(worst.ratio) + " times its tolerance";
+  }
+
+  // Everything that is decided about a run is decided here, at fixed steps, whoever watches.
+  bool over(StageOutcome& outcome) {
+    follow_peak();
+    outcome = {s_.progress.stage, true, s_.time, stage_.until};
+    if (end_met()) return true;
+    outcome.met = false;
     if (hooks_.max_time > 0 && s_.time >= hooks_.max_time) {
-      outcome.reason = "stopped by --max-time " + std::to_string(hooks_.max_time) + " T0: " + missing;
+      outcome.reason = "stopped by --max-time " + std::to_string(hooks_.max_time) + " T0: " + missing();
       return true;
     }
     if (stage_.until != "time" && s_.time - s_.progress.start_time >= stage_.max_time) {
-      outcome.reason = "not in equilibrium after stage.max_time = " + std::to_string(stage_.max_time) +
-                       " T0: " + missing + "; raise stage.max_time or set finish.method = \"drag\"";
+      outcome.reason = "stage.until = \"" + stage_.until +
+                       "\" not met after stage.max_time = " + std::to_string(stage_.max_time) + " T0: " + missing() +
+                       "; raise stage.max_time" + (waits_for_equilibrium() ? " or set finish.method" : "");
       return true;
     }
     return false;
@@ -232,9 +317,10 @@ class StageRun {
   // stop the very motions that make the packing: when a compression begins nothing moves fast either.
   void update_drag() {
     const Certificate& c = s_.certificate;
-    const double carried =
-        std::max(kCarried * s_.imposed_pressure.value_or(0), 10 * c.tolerance_pressure * c.force_scale);
+    const double carried = std::max(kCarried * std::abs(largest_stress(s_.imposed_stress).value_or(0)),
+                                    10 * c.tolerance_pressure * c.force_scale);
     const bool network =
+        waits_for_equilibrium() && !stiffening() && (stage_.until != "aggregated" || count_clusters(s_.packing) == 1) &&
         static_cast<double>(loaded_contacts(s_)) >= kNetwork * static_cast<double>(s_.packing.bodies.size()) &&
         c.pressure_error * c.force_scale < carried;
     if (!network || !(c.kinetic_energy_per_grain < c.tolerance_kinetic)) s_.progress.quiet_since = s_.time;
@@ -275,6 +361,7 @@ RunOutcome run_stages(State& state, const SolverOptions& options, const RunHooks
     outcome.stages.push_back(stage);
     ++state.progress.stage;
     state.progress.started = false;
+    if (hooks.stage_end) hooks.stage_end(state);
     if (hooks.max_time > 0 && state.time >= hooks.max_time) break;
   }
   outcome.steps = state.step - first_step;

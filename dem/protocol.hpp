@@ -26,6 +26,7 @@ struct RunHooks {
   std::function<void(const Progress&)> progress;  // at every look at the packing
   std::function<void(const State&)> observe;      // at multiples of observe_interval [T0]
   double observe_interval = 0;                    // 0: never
+  std::function<void(const State&)> stage_end;    // after each stage, with progress at the next
   std::function<void(const State&)> snapshot;     // at the scene's output.snapshot_times and _solid_fractions
   std::function<void(const State&)> checkpoint;   // resumable, every checkpoint_seconds of wall time
   double checkpoint_seconds = 0;                  // 0: never

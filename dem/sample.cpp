@@ -56,9 +56,9 @@ void set_disk_inertia(Bodies<2>& b) {
   }
 }
 
-double time_step(const Scene& scene, const Bodies<2>& bodies) {
+double time_step(const Scene& scene, double normal_stiffness, const Bodies<2>& bodies) {
   const double heaviest = *std::max_element(bodies.mass.begin(), bodies.mass.end());
-  return scene.step.fraction * std::sqrt(heaviest / scene.law.normal_stiffness);
+  return scene.step.fraction * std::sqrt(heaviest / normal_stiffness);
 }
 
 namespace {
@@ -94,7 +94,7 @@ State state_from_file(const Scene& scene, std::uint64_t seed) {
                        "grains " + std::to_string(b.id[i]) + " and " + std::to_string(b.id[j]) + " overlap by " +
                            std::to_string(sum - norm(r)) + " a; at most a tenth of the sum of radii is allowed");
   }
-  state.time_step = time_step(scene, b);
+  state.time_step = time_step(scene, state.law.normal_stiffness, b);
   state.cell_motion.reference_length = state.packing.cell->length;
   return state;
 }
@@ -140,7 +140,7 @@ State initial_state(const Scene& scene, std::uint64_t seed) {
     placement.add(r, k);
   }
   set_disk_inertia(b);
-  state.time_step = time_step(scene, b);
+  state.time_step = time_step(scene, state.law.normal_stiffness, b);
   state.random_counter = random.counter();
   state.cell_motion.reference_length = cell.length;
   return state;

@@ -12,6 +12,6 @@ void set_disk_inertia(Bodies<2>& bodies);
 State initial_state(const Scene& scene, std::uint64_t seed);
 
 // dt = c sqrt(m_max / K_N).
-double time_step(const Scene& scene, const Bodies<2>& bodies);
+double time_step(const Scene& scene, double normal_stiffness, const Bodies<2>& bodies);
 
 }  // namespace isostat

@@ -19,7 +19,7 @@ double critical_time_step(const LawParameters& law, double diameter_min) {
 
 Scales scales(const LawParameters& law, std::optional<double> pressure, double diameter_min, double time_step) {
   Scales s;
-  s.force = std::max(law.attraction, pressure.value_or(0));
+  s.force = std::max(law.attraction, std::abs(pressure.value_or(0)));
   if (s.force > 0) {
     s.kappa = law.normal_stiffness / s.force;
     s.time = 1 / std::sqrt(law.attraction > 0 ? law.attraction : s.force);
@@ -38,9 +38,9 @@ Scales scales(const LawParameters& law, std::optional<double> pressure, double d
 
 Scales scales(const State& state) {
   const auto& radius = state.packing.bodies.radius;
-  if (radius.empty()) return scales(state.law, state.imposed_pressure, 1, state.time_step);
+  if (radius.empty()) return scales(state.law, largest_stress(state.imposed_stress), 1, state.time_step);
   const double smallest = *std::min_element(radius.begin(), radius.end());
-  return scales(state.law, state.imposed_pressure, 2 * smallest, state.time_step);
+  return scales(state.law, largest_stress(state.imposed_stress), 2 * smallest, state.time_step);
 }
 
 SiScales si_scales(const UnitsScene& units) {

@@ -4,6 +4,7 @@
 // Reduced units: a, m, F0; without cohesion the unit of force is a P, so a cohesionless scene has pressure = 1.
 #pragma once
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -69,22 +70,42 @@ struct FinishScene {
   friend bool operator==(const FinishScene&, const FinishScene&) = default;
 };
 
-// [[stage]]: one step of the history of a sample.
+// [[stage]]: one step of the history of a sample. Each direction of the cell has an imposed stress, or an imposed
+// strain rate, or stays fixed.
 struct StageScene {
-  std::optional<double> pressure;     // P* [F0/a] stress applied in both directions; absent: fixed cell
-  double velocity = 0.0;              // V0 [V* = sqrt(F0 D0 / m)] rms velocity drawn at the start; 0: keep
-  double max_strain_rate = 0.05;      // [1/T0] cap of the cell's strain rate; 0: no cap
-  std::string until = "equilibrium";  // or "time"
-  double time = 0.0;                  // [T0] length of the stage with until = "time"
-  double max_time = 20000.0;          // [T0] give up (exit code 3) after so long
+  std::optional<double> pressure;                      // P* [F0/a] stress applied in both directions
+  std::vector<double> pressures;                       // [F0/a] the stage once for each; empty in a resolved scene
+  std::optional<double> stress_1, stress_2;            // [F0/a] of one direction, compression positive
+  std::optional<double> strain_rate_1, strain_rate_2;  // [1/T0] of one direction, compression positive
+  double velocity = 0.0;                   // V0 [V* = sqrt(F0 D0 / m)] rms velocity drawn at the start; 0: keep
+  double max_strain_rate = 0.05;           // [1/T0] cap of the cell's strain rate; 0: no cap
+  std::optional<double> normal_stiffness;  // K_N [F0/a] that the contacts are brought to; absent: it stays
+  double stiffening_time = 200.0;          // [T0] of the exponential change of K_N
+  std::string until = "equilibrium";       // "aggregated", "time", "strain", "failure"
+  double time = 0.0;                       // [T0] length of the stage with until = "time"
+  double strain = 0.0;                     // [-] |1 - L/L0| of a driven direction that ends the stage
+  double drop = 0.5;                       // [-] part of the peak stress whose loss is failure
+  double max_time = 20000.0;               // [T0] give up (exit code 3) after so long
   friend bool operator==(const StageScene&, const StageScene&) = default;
 };
+
+// Stress imposed along each edge of the cell [F0/a], compression positive; none: that edge is fixed or driven.
+using ImposedStress = std::array<std::optional<double>, 2>;
+inline ImposedStress isotropic(std::optional<double> pressure) { return {pressure, pressure}; }
+// P [F0/a]: the imposed stress of largest magnitude, with its sign; none if no edge has one.
+inline std::optional<double> largest_stress(const ImposedStress& s) {
+  if (!s[0] || !s[1]) return s[0] ? s[0] : s[1];
+  return std::abs(*s[0]) < std::abs(*s[1]) ? s[1] : s[0];
+}
+
+ImposedStress imposed_stress(const StageScene& stage);
 
 // [output]: observers; they read, they never touch the run.
 struct OutputScene {
   std::string series;                            // CSV file of the time series; empty: none
   double series_interval = 1.0;                  // [T0]
   bool energies = false;                         // energy ledger in the series (costs a tally kernel)
+  bool stages = false;                           // keep the state at the end of each stage but the last
   std::vector<double> snapshot_times;            // [T0]
   std::vector<double> snapshot_solid_fractions;  // [-]
   friend bool operator==(const OutputScene&, const OutputScene&) = default;

@@ -23,6 +23,13 @@ double longest_edge(const Scene& scene) {
   return std::sqrt(area * std::max(scene.cell.aspect, 1 / scene.cell.aspect));
 }
 
+// F1 [F0] of a stage, a = 1.
+double largest_force(const LawScene& law, const StageScene& stage) {
+  double force = std::max(law.attraction, std::abs(largest_stress(imposed_stress(stage)).value_or(0)));
+  for (const double p : stage.pressures) force = std::max(force, p);
+  return force;
+}
+
 void check_grains(const Scene& scene, std::vector<SceneConflict>& found) {
   const GrainsScene& g = scene.grains;
   if (g.file.empty() && g.diameter_min > g.diameter_max)
@@ -39,10 +46,10 @@ void check_stiffness(const Scene& scene, std::vector<SceneConflict>& found) {
   double largest = scene.law.attraction, smallest = std::numeric_limits<double>::infinity();
   std::vector<std::string> involved{"law.normal_stiffness", "law.attraction", "grains.diameter_min"};
   for (std::size_t i = 0; i < scene.stages.size(); ++i) {
-    const double force = std::max(scene.law.attraction, scene.stages[i].pressure.value_or(0));  // F1, a = 1
+    const double force = largest_force(scene.law, scene.stages[i]);
     largest = std::max(largest, force);
     if (force > 0) smallest = std::min(smallest, force);
-    involved.push_back(stage_key(i, "pressure"));
+    for (const char* key : {"pressure", "pressures", "stress_1", "stress_2"}) involved.push_back(stage_key(i, key));
   }
   const double diameter = random ? scene.grains.diameter_min : 1.0;
   if (largest > kLargestOverlap * diameter * stiffness)
@@ -79,6 +86,40 @@ void check_step(const Scene& scene, std::vector<SceneConflict>& found) {
                       "law.tangential_stiffness", "law.rolling_stiffness", "law.friction", "law.rolling_friction"}});
 }
 
+bool waits_for_equilibrium(const StageScene& s) { return s.until == "equilibrium" || s.until == "aggregated"; }
+
+// Each direction has one master, and the end of a stage must be one that its directions can reach.
+void check_control(const Scene& scene, std::size_t i, std::vector<SceneConflict>& found) {
+  const StageScene& s = scene.stages[i];
+  const auto key = [i](const char* name) { return stage_key(i, name); };
+  const auto one_master = [&](const std::optional<double>& stress, const std::optional<double>& rate, const char* k) {
+    if (stress && rate)
+      found.push_back({key(k),
+                       real_text(*rate),
+                       "a direction has an imposed stress or a strain rate, not both",
+                       {key(k), key(k == std::string("strain_rate_1") ? "stress_1" : "stress_2")}});
+  };
+  one_master(s.stress_1, s.strain_rate_1, "strain_rate_1");
+  one_master(s.stress_2, s.strain_rate_2, "strain_rate_2");
+  const bool driven = s.strain_rate_1.value_or(0) != 0 || s.strain_rate_2.value_or(0) != 0;
+  const std::vector<std::string> involved{key("until"), key("strain_rate_1"), key("strain_rate_2")};
+  if (waits_for_equilibrium(s) && driven)
+    found.push_back({key("until"), quoted_text(s.until),
+                     "a driven cell never comes to rest: \"strain\", \"failure\" or \"time\"", involved});
+  if ((s.until == "strain" || s.until == "failure") && !driven)
+    found.push_back(
+        {key("until"), quoted_text(s.until), "needs a strain rate other than 0 along a direction", involved});
+  if (s.until == "strain" && !(s.strain > 0))
+    found.push_back({key("strain"),
+                     real_text(s.strain),
+                     "greater than 0, since " + key("until") + " is \"strain\"",
+                     {key("strain"), key("until")}});
+  if (s.until == "aggregated" && !(scene.law.attraction > 0))
+    found.push_back({key("until"), quoted_text(s.until), "needs law.attraction > 0", {key("until"), "law.attraction"}});
+  if (!s.pressures.empty() && s.pressure)
+    found.push_back({key("pressures"), "", "either pressure or pressures", {key("pressure"), key("pressures")}});
+}
+
 void check_stages(const Scene& scene, std::vector<SceneConflict>& found) {
   if (scene.stages.empty()) found.push_back({"stage", "", "at least one [[stage]]", {"stage"}});
   for (std::size_t i = 0; i < scene.stages.size(); ++i) {
@@ -88,6 +129,7 @@ void check_stages(const Scene& scene, std::vector<SceneConflict>& found) {
       found.push_back({time, real_text(s.time), "greater than 0, since " + until + " is \"time\"", {time, until}});
     if (s.until != "time" && s.time > 0)
       found.push_back({time, real_text(s.time), "only with " + until + " = \"time\"", {time, until}});
+    check_control(scene, i, found);
     if (scene.law.attraction > 0) continue;
     const std::string velocity = stage_key(i, "velocity"), pressure = stage_key(i, "pressure");
     if (s.velocity > 0)
@@ -95,11 +137,11 @@ void check_stages(const Scene& scene, std::vector<SceneConflict>& found) {
                        real_text(s.velocity),
                        "0, since law.attraction is 0: the unit V* = sqrt(F0 D0 / m) vanishes",
                        {velocity, "law.attraction"}});
-    if (s.until == "equilibrium" && !(s.pressure.value_or(0) > 0))
+    if (waits_for_equilibrium(s) && !(largest_force(scene.law, s) > 0))
       found.push_back({pressure,
                        s.pressure ? real_text(*s.pressure) : "",
-                       "greater than 0, since law.attraction is 0 and " + until +
-                           " is \"equilibrium\": without attraction or pressure there is no force scale",
+                       "greater than 0, since law.attraction is 0 and " + until + " is \"" + s.until +
+                           "\": without attraction or pressure there is no force scale",
                        {pressure, until, "law.attraction"}});
   }
 }

@@ -121,6 +121,7 @@ class Parser {
     assign_all(scene, true);  // needs to know which keys apply
     if (scene.units) require_units();
     if (checks == SceneChecks::all) report_conflicts(scene);
+    if (faults_.empty() && checks == SceneChecks::all) expand_load_paths(scene);
     if (!faults_.empty()) {
       std::stable_sort(faults_.begin(), faults_.end(), [](const Fault& a, const Fault& b) {
         return (a.file == "--set") != (b.file == "--set") ? b.file == "--set" : a.line < b.line;
@@ -273,6 +274,21 @@ class Parser {
     if (!store(key, name, node)) return false;
     target = static_cast<Finish>(std::find(key.choices.begin(), key.choices.end(), name) - key.choices.begin());
     return true;
+  }
+
+  static void expand_load_paths(Scene& scene) {
+    std::vector<StageScene> stages;
+    for (const StageScene& stage : scene.stages) {
+      StageScene one = stage;
+      one.pressures.clear();
+      if (stage.pressures.empty()) stages.push_back(one);
+      for (const double p : stage.pressures) {
+        one.pressure = p;
+        stages.push_back(one);
+        one.velocity = 0;
+      }
+    }
+    scene.stages = std::move(stages);
   }
 
   void require_units() {

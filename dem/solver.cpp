@@ -50,11 +50,11 @@ Solver::Solver(const State& state, const CellControl& control, SolverOptions opt
       energies_(options.energies),
       rotates_(law_.friction > 0 || law_.rolling_friction > 0),
       force_kernel_(select_kernel(law_,
-                                  options.energies   ? Tally::energy
-                                  : control.pressure ? Tally::stress
-                                                     : Tally::nothing,
+                                  options.energies  ? Tally::energy
+                                  : control.moves() ? Tally::stress
+                                                    : Tally::nothing,
                                   options.isa)),
-      motion_kernel_(select_motion({rotates_, control.pressure.has_value()})),
+      motion_kernel_(select_motion({rotates_, control.moves()})),
       team_(std::min(options.threads, NeighbourLists::chunk_count(state.packing.bodies.size()))),
       lists_(state.packing.bodies.size(), law_.attraction_range, law_.damping, law_.normal_stiffness) {
   load_bodies(state);
@@ -95,7 +95,7 @@ double Solver::advance_bodies() {
   step.time_step = dt_;
   step.keep[0] = step.keep[1] = step.keep_spin = 1 - drag_ * dt_;
   double affine = 0;
-  if (control_.pressure) {
+  if (control_.moves()) {
     flow_ = advance_cell(control_, dt_, cell_motion_, cell_, step);
     affine = std::max(std::abs(step.scale[0] - 1), std::abs(step.scale[1] - 1));
   }
@@ -157,7 +157,7 @@ void Solver::compute_forces(double time_step) {
 
 // sigma_aa = (1/A) [sum m v_a^2 + sum over pairs F_a r_a], each pair once, compression positive.
 void Solver::measure_stress() {
-  if (!control_.pressure) return;
+  if (!control_.moves()) return;
   const double area = cell_.measure();
   for (int a = 0; a < 2; ++a) {
     cell_motion_.stress[a] = (motion_tally_.kinetic[a] + force_tally_.virial[a]) / area;
@@ -226,6 +226,29 @@ double Solver::viscous_power() const {
     power += weight[0] * damping * predicted * mean;
   });
   return power;
+}
+
+void Solver::set_law(const LawParameters& law) {
+  if (energies_) ledger_.injected -= elastic_energy();
+  lists_.set_stiffness(law.normal_stiffness, bodies_);
+  law_ = law;
+  if (energies_) ledger_.injected += elastic_energy();
+}
+
+double Solver::elastic_energy() const {
+  double energy = 0;
+  const auto stored = [](double force, double stiffness) {
+    return stiffness > 0 ? 0.5 * force * force / stiffness : 0.0;
+  };
+  lists_.for_each([&](std::int32_t i, std::int32_t j, std::uint8_t shift, double tangential, double moment) {
+    const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+    const double sum = bodies_.constants[a].radius + bodies_.constants[b].radius;
+    const double gap = norm(bodies_.position(b) + cell_.offset(image_shift(shift)) - bodies_.position(a)) - sum;
+    if (gap < 0)
+      energy += 0.5 * law_.normal_stiffness * gap * gap + stored(tangential, law_.tangential_stiffness) +
+                stored(moment, law_.rolling_stiffness);
+  });
+  return energy;
 }
 
 void Solver::check_sanity() const {

@@ -44,6 +44,8 @@ class Solver {
   void step();  // throws RunError when it blows up
 
   void set_drag(double rate) { drag_ = rate; }  // [1/T0] global drag -rate m v, -rate I w; 0: none
+  // Other stiffnesses; forces T and moments M of the springs stay as they are, their composition may not change.
+  void set_law(const LawParameters& law);
   double time() const { return time_; }
   std::int64_t steps() const { return step_; }
   const PeriodicCell<2>& cell() const { return cell_; }
@@ -66,6 +68,7 @@ class Solver {
   void work_ledger();
   void set_work_due();
   double viscous_power() const;
+  double elastic_energy() const;
 
   LawParameters law_;
   CellControl control_;

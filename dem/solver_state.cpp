@@ -57,7 +57,8 @@ void Solver::snapshot(State& s) const {
   s.packing.cell = cell_;
   s.cell_motion = cell_motion_;
   s.ledger = ledger_;
-  s.imposed_pressure = control_.pressure;
+  s.imposed_stress = control_.stress;
+  s.law = law_;
 
   Bodies<2>& b = s.packing.bodies;
   b.resize(n);

@@ -50,11 +50,14 @@ struct EnergyLedger {
 
 // Where the run stands in the scene's stages.
 struct StageProgress {
-  std::int32_t stage = 0;  // index into Scene::stages; == size: finished
-  double start_time = 0;   // [T0] when the current stage began
-  bool started = false;    // the stage's opening actions (velocities, reference length) are done
-  bool drag_on = false;    // the finishing drag acts
-  double quiet_since = 0;  // [T0] since when only creep has been left, as seen by the checks
+  std::int32_t stage = 0;      // index into Scene::stages; == size: finished
+  double start_time = 0;       // [T0] when the current stage began
+  bool started = false;        // the stage's opening actions (velocities, reference length) are done
+  bool drag_on = false;        // the finishing drag acts
+  double quiet_since = 0;      // [T0] since when only creep has been left, as seen by the checks
+  double start_stiffness = 0;  // K_N [F0/a] when the stage began
+  Vec2 start_stress{};         // [F0/a] static stress sigma_11, sigma_22 when the stage began
+  double peak_stress = 0;      // [F0/a] largest change of the stress of a driven direction so far
 };
 
 // The three criteria of Gilabert 2007, Sec. II.D, evaluated from static forces.
@@ -80,7 +83,7 @@ struct State {
   std::int64_t step = 0;
   double time_step = 0;  // dt [T0]
   CellMotion cell_motion;
-  std::optional<double> imposed_pressure;  // [F0/a] of the current or last stage; none: fixed cell
+  ImposedStress imposed_stress;  // of the current or last stage
   SolverMemory memory;
   StageProgress progress;
   EnergyLedger ledger;

@@ -90,14 +90,15 @@ Broken check_numbers(const State& s) {
     if (!finite(x) || x < 0) return StateFault{"law", "a parameter that is negative or not a finite number"};
   if (!finite(s.time) || !finite(s.time_step) || s.time_step < 0 || s.step < 0)
     return StateFault{"run", "a time or step that is negative or not a finite number"};
-  if (s.imposed_pressure && !finite(*s.imposed_pressure))
-    return StateFault{"run", "imposed_pressure is not a finite number"};
+  for (const auto& stress : s.imposed_stress)
+    if (stress && !finite(*stress)) return StateFault{"run", "an imposed stress that is not a finite number"};
   if (!finite(s.cell_motion.reference_length) || !finite(s.cell_motion.strain_rate) || !finite(s.cell_motion.stress))
     return StateFault{"cell", "a number that is not finite"};
   if (s.progress.stage < 0 || static_cast<std::size_t>(s.progress.stage) > s.scene.stages.size())
     return StateFault{"progress", "stage is not one of the scene's"};
-  if (!finite(s.progress.start_time) || !finite(s.progress.quiet_since))
-    return StateFault{"progress", "a time that is not a finite number"};
+  if (!finite(s.progress.start_time) || !finite(s.progress.quiet_since) || !finite(s.progress.start_stiffness) ||
+      !finite(s.progress.start_stress) || !finite(s.progress.peak_stress))
+    return StateFault{"progress", "a number that is not finite"};
   return std::nullopt;
 }
 

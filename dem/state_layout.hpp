@@ -1,4 +1,4 @@
-// Format version 1 of a state file, described once: writing and reading both follow transfer(). Io is StateWriter or
+// Format version 2 of a state file, described once: writing and reading both follow transfer(). Io is StateWriter or
 // StateReader of dem/state_file.cpp. Structured bindings name every member, so that a new member of State does not
 // compile until it has its place here. Raise kStateFormatVersion and extend docs/formats.md with any change.
 #pragma once
@@ -130,12 +130,15 @@ void transfer_law(Io& io, LawParameters& law) {
 
 template <class Io>
 void transfer_progress(Io& io, StageProgress& progress) {
-  auto& [stage, start_time, started, drag_on, quiet_since] = progress;
+  auto& [stage, start_time, started, drag_on, quiet_since, start_stiffness, start_stress, peak_stress] = progress;
   io.value("/progress", "stage", stage);
   io.value("/progress", "start_time", start_time);
   io.value("/progress", "started", started);
   io.value("/progress", "drag_on", drag_on);
   io.value("/progress", "quiet_since", quiet_since);
+  io.value("/progress", "start_stiffness", start_stiffness);
+  io.value("/progress", "start_stress", start_stress);
+  io.value("/progress", "peak_stress", peak_stress);
 }
 
 template <class Io>
@@ -174,12 +177,13 @@ void transfer_certificate(Io& io, Certificate& certificate) {
 
 template <class Io>
 void transfer(Io& io, State& state) {
-  auto& [packing, law, time, step, time_step, cell_motion, imposed_pressure, memory, progress, ledger, certificate,
-         scene, seed, random_counter] = state;
+  auto& [packing, law, time, step, time_step, cell_motion, imposed_stress, memory, progress, ledger, certificate, scene,
+         seed, random_counter] = state;
   io.value("/run", "time", time);
   io.value("/run", "step", step);
   io.value("/run", "time_step", time_step);
-  io.value("/run", "imposed_pressure", imposed_pressure);
+  io.value("/run", "imposed_stress_1", imposed_stress[0]);
+  io.value("/run", "imposed_stress_2", imposed_stress[1]);
   io.value("/run", "seed", seed);
   io.value("/run", "random_counter", random_counter);
   transfer_packing(io, packing);

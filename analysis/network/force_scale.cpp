@@ -42,7 +42,7 @@ ForceReading read_forces(const AnalysisInput& input) {
   ForceReading reading;
   reading.known = reading.law_known = true;
   reading.cohesive = input.state->law.attraction > 0;
-  reading.scale = force_scale(input.state->law, input.state->imposed_pressure);
+  reading.scale = force_scale(input.state->law, input.state->imposed_stress);
   reading.threshold = kLoadTolerance * reading.scale;
   return reading;
 }

@@ -48,7 +48,7 @@ ClusterResult double_triangle(const ClusterSetup& setup) {
   while (solver.time() < setup.max_time && !r.at_rest) {
     solver.run(interval);
     solver.snapshot(r.state);
-    r.state.certificate = evaluate_certificate(r.state.packing, r.state.law, std::nullopt, tolerance);
+    r.state.certificate = evaluate_certificate(r.state.packing, r.state.law, {}, tolerance);
     r.at_rest = r.state.certificate.equilibrated && find_link(r.state, 2, 0) && !r.state.packing.links.empty() &&
                 (find_link(r.state, 0, 3) || find_link(r.state, 1, 3) || find_link(r.state, 2, 3));
   }

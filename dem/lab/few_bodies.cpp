@@ -28,7 +28,7 @@ State few_bodies(const LawScene& law, const std::vector<Disk>& disks, double fra
   for (Vec2& r : b.position) r += Vec2{{edge / 2, edge / 2}};
   state.packing.cell = PeriodicCell<2>{{{edge, edge}}};
   state.cell_motion.reference_length = state.packing.cell->length;
-  state.time_step = time_step(state.scene, b);
+  state.time_step = time_step(state.scene, state.law.normal_stiffness, b);
   return state;
 }
 

@@ -29,7 +29,7 @@ Throughput measure_throughput(Packing<2> packing, const ThroughputSetup& setup) 
   state.packing = std::move(packing);
   state.packing.links.clear();
   set_disk_inertia(state.packing.bodies);
-  state.time_step = time_step(state.scene, state.packing.bodies);
+  state.time_step = time_step(state.scene, state.law.normal_stiffness, state.packing.bodies);
   state.cell_motion.reference_length = state.packing.cell->length;
 
   SolverOptions options;
@@ -39,7 +39,7 @@ Throughput measure_throughput(Packing<2> packing, const ThroughputSetup& setup) 
     State probe = state;
     Solver(state, {}, options).snapshot(probe);
     const StressTensor stress = measured_stress(probe.packing);
-    control.pressure = 0.5 * (stress.xx + stress.yy);
+    control.stress = isotropic(0.5 * (stress.xx + stress.yy));
     control.max_strain_rate = 0.05;
     control.inertia = 0;
     for (double m : state.packing.bodies.mass) control.inertia += 0.3 * m;

@@ -43,7 +43,7 @@ AnalysisInput state_input(Packing<2> packing, const LawParameters& law, std::opt
   input.state.emplace();
   input.state->packing = input.packing;
   input.state->law = law;
-  input.state->imposed_pressure = pressure;
+  input.state->imposed_stress = isotropic(pressure);
   return input;
 }
 

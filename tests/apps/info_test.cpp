@@ -31,7 +31,7 @@ State two_disks() {
   s.packing.links.push_back({0, 1, {}, LinkKind::distant, 0.0, -1.0, 0, 0});
   s.scene = read_scene(ISOSTAT_DATA "/scenes/disks-method1.toml");
   s.law = resolve(s.scene.law);
-  s.time = 12.5, s.time_step = 0.06 * std::sqrt(1e-5), s.imposed_pressure = 0.01;
+  s.time = 12.5, s.time_step = 0.06 * std::sqrt(1e-5), s.imposed_stress = isotropic(0.01);
   s.seed = 18446744073709551615u;
   return s;
 }
@@ -42,7 +42,7 @@ TEST_F(InfoCommand, PrintsTheContract) {
   const Outcome o = run("info " + in_folder("state.h5"));
   ASSERT_EQ(o.code, 0) << o.err;
   const json j = json::parse(o.out);
-  EXPECT_EQ(j["format_version"], 1);
+  EXPECT_EQ(j["format_version"], 2);
   EXPECT_EQ(j["hash"], read_state_file(in_folder("state.h5")).hash);
   EXPECT_EQ(j["cell"], json({4.0, 5.0}));
   EXPECT_EQ(j["time"], 12.5);

@@ -22,7 +22,7 @@ using oracle::soft_law;
 
 CellControl barostat(const State& s, double pressure) {
   CellControl c;
-  c.pressure = pressure, c.max_strain_rate = 2, c.inertia = 0.3 * oracle::total_mass(s);
+  c.stress = isotropic(pressure), c.max_strain_rate = 2, c.inertia = 0.3 * oracle::total_mass(s);
   return c;
 }
 

@@ -40,9 +40,15 @@ Packing<2> pair_at(double gap, const LawParameters& law) {
   return p;
 }
 
+TEST(Certificate, EachDirectionHasItsOwnStress) {
+  EXPECT_EQ(force_scale(cohesive_law(), {std::nullopt, -3.0}), 3);
+  EXPECT_EQ(largest_stress({0.5, -2.0}), -2.0);
+  EXPECT_FALSE(largest_stress({}));
+}
+
 TEST(Equilibrium, StickingPairAtZeroForceIsBalanced) {
   const LawParameters law = cohesive_law();
-  const Certificate c = evaluate_certificate(pair_at(-1e-5, law), law, std::nullopt, {});
+  const Certificate c = evaluate_certificate(pair_at(-1e-5, law), law, {}, {});
   EXPECT_NEAR(c.max_force, 0, 1e-9);
   EXPECT_EQ(c.max_moment, 0);
   EXPECT_FALSE(c.pressure_controlled);
@@ -63,7 +69,7 @@ TEST(Equilibrium, NormalForceFollowsTheLawThroughContactAndRange) {
 TEST(Equilibrium, UnbalancedPairReportsItsForceInF1) {
   LawParameters law = cohesive_law();
   law.attraction = 4;
-  const Certificate c = evaluate_certificate(pair_at(-5e-5, law), law, std::nullopt, {});  // N = 5 - 4
+  const Certificate c = evaluate_certificate(pair_at(-5e-5, law), law, {}, {});  // N = 5 - 4
   EXPECT_DOUBLE_EQ(c.force_scale, 4);
   EXPECT_NEAR(c.max_force, 0.25, 1e-12);
   EXPECT_FALSE(c.equilibrated);
@@ -72,10 +78,10 @@ TEST(Equilibrium, UnbalancedPairReportsItsForceInF1) {
 }
 
 TEST(Equilibrium, ForceScaleIsTheLargerOfAttractionAndPressure) {
-  EXPECT_EQ(force_scale(cohesive_law(), 0.01), 1);
-  EXPECT_EQ(force_scale(cohesive_law(), 3.0), 3);
-  EXPECT_EQ(force_scale(cohesionless_law(), 0.2), 0.2);
-  EXPECT_EQ(force_scale(cohesionless_law(), std::nullopt), 1);
+  EXPECT_EQ(force_scale(cohesive_law(), isotropic(0.01)), 1);
+  EXPECT_EQ(force_scale(cohesive_law(), isotropic(3.0)), 3);
+  EXPECT_EQ(force_scale(cohesionless_law(), isotropic(0.2)), 0.2);
+  EXPECT_EQ(force_scale(cohesionless_law(), {}), 1);
 }
 
 TEST(Equilibrium, NetLoadsAndStressMatchTheContactPointOracle) {
@@ -84,7 +90,7 @@ TEST(Equilibrium, NetLoadsAndStressMatchTheContactPointOracle) {
     double force = 0, moment = 0;
     for (const oracle::NetLoad& l : oracle::net_loads(p))
       force = std::max(force, norm(l.force)), moment = std::max(moment, std::abs(l.moment));
-    const Certificate c = evaluate_certificate(p, cohesive_law(), std::nullopt, {});
+    const Certificate c = evaluate_certificate(p, cohesive_law(), {}, {});
     EXPECT_NEAR(c.max_force, force, 1e-13 * force);
     EXPECT_NEAR(c.max_moment, moment, 1e-13 * moment);
   }
@@ -103,18 +109,18 @@ TEST(Equilibrium, MarginCountsAndKindsAgree) {
   Packing<2> p = pair_at(h, law);
   p.links[0].tangential_force = 0.75 * limit_t;
   p.links[0].moment = -0.25 * limit_m;
-  Certificate c = evaluate_certificate(p, law, std::nullopt, {});
+  Certificate c = evaluate_certificate(p, law, {}, {});
   EXPECT_NEAR(c.smallest_margin, 0.25, 1e-12);
   EXPECT_EQ(c.sliding, 0);
   p.links[0].tangential_force = -limit_t, p.links[0].moment = limit_m;
-  c = evaluate_certificate(p, law, std::nullopt, {});
+  c = evaluate_certificate(p, law, {}, {});
   EXPECT_EQ(c.sliding, 1);
   EXPECT_EQ(c.rolling_yielded, 1);
   EXPECT_NEAR(c.smallest_margin, 0, 1e-12);
 
   LawParameters frictionless = law;
   frictionless.friction = frictionless.rolling_friction = 0;
-  EXPECT_EQ(evaluate_certificate(pair_at(h, law), frictionless, std::nullopt, {}).sliding, 0);
+  EXPECT_EQ(evaluate_certificate(pair_at(h, law), frictionless, {}, {}).sliding, 0);
 }
 
 TEST(Equilibrium, SpinningRattlersDoNotHoldUpACohesionlessPacking) {
@@ -123,13 +129,13 @@ TEST(Equilibrium, SpinningRattlersDoNotHoldUpACohesionlessPacking) {
   p.bodies.resize(3);
   p.bodies.id[2] = 3, p.bodies.position[2] = {{5, 5}};
   p.bodies.radius[2] = 0.5, p.bodies.mass[2] = 1, p.bodies.inertia[2] = 0.125, p.bodies.spin[2] = 1;
-  EXPECT_TRUE(evaluate_certificate(p, law, std::nullopt, {}).equilibrated);
+  EXPECT_TRUE(evaluate_certificate(p, law, {}, {}).equilibrated);
   // ... but a cohesive one counts every grain: 0.5 * 0.125 / 3 of F0 a per grain.
-  const Certificate c = evaluate_certificate(p, cohesive_law(), std::nullopt, {});
+  const Certificate c = evaluate_certificate(p, cohesive_law(), {}, {});
   EXPECT_DOUBLE_EQ(c.kinetic_energy_per_grain, 0.5 * 0.125 / 3);
   // and a gas without any contact is not at rest
   p.links.clear();
-  EXPECT_FALSE(evaluate_certificate(p, law, std::nullopt, {}).equilibrated);
+  EXPECT_FALSE(evaluate_certificate(p, law, {}, {}).equilibrated);
 }
 
 // Square lattice of touching disks, one grain a cell: two self-contacts with forces N1, N2; sigma_11 = N1 L1 / (L1 L2).
@@ -149,8 +155,8 @@ TEST(Equilibrium, SquareLatticeCarriesItsPressure) {
   EXPECT_NEAR(s.xx, n / side, 1e-14);
   EXPECT_NEAR(s.yy, n / side, 1e-14);
   EXPECT_EQ(s.xy, 0);
-  EXPECT_TRUE(evaluate_certificate(p, law, n / side, {}).equilibrated);
-  const Certificate off = evaluate_certificate(p, law, n / side + 2e-4, {});
+  EXPECT_TRUE(evaluate_certificate(p, law, isotropic(n / side), {}).equilibrated);
+  const Certificate off = evaluate_certificate(p, law, isotropic(n / side + 2e-4), {});
   EXPECT_NEAR(off.pressure_error, 2e-4 / (n / side + 2e-4), 1e-10);
   EXPECT_FALSE(off.equilibrated);
   p.bodies.velocity[0] = {{0.3, 0}};  // the kinetic part counts in the stress
@@ -162,10 +168,10 @@ TEST(Equilibrium, NotANumberIsNeverBalanced) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Packing<2> p = pair_at(-1e-5, law);
   p.links[0].normal_force = nan;
-  EXPECT_FALSE(evaluate_certificate(p, law, std::nullopt, {}).equilibrated);
+  EXPECT_FALSE(evaluate_certificate(p, law, {}, {}).equilibrated);
   p = pair_at(-1e-5, law);
   p.bodies.velocity[1][0] = nan;
-  const Certificate c = evaluate_certificate(p, law, std::nullopt, {});
+  const Certificate c = evaluate_certificate(p, law, {}, {});
   EXPECT_FALSE(c.equilibrated);
   EXPECT_EQ(worst_criterion(c).name, "kinetic energy");
 }

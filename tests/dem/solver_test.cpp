@@ -42,7 +42,7 @@ Difference difference(const State& s, const DiskReference& reference) {
 
 CellControl barostat(const State& s, double pressure, double cap = 0) {
   CellControl c;
-  c.pressure = pressure, c.max_strain_rate = cap, c.inertia = 0.3 * oracle::total_mass(s);
+  c.stress = isotropic(pressure), c.max_strain_rate = cap, c.inertia = 0.3 * oracle::total_mass(s);
   return c;
 }
 
@@ -94,6 +94,24 @@ std::vector<RunCase> run_cases() {
           {"two disks", pair, 2.0},
           {"a strip", strip, 30.0},
           {"expanding", with(soft_law(), 9), -20.0}};
+}
+
+TEST(Solver, DrivesOneDirectionAndLoadsTheOther) {
+  State s = random_state(with(soft_law(), 11));
+  CellControl control = barostat(s, 20, 2.0);
+  control.stress[1].reset();
+  control.strain_rate = {{0, -0.7}};
+  DiskReference reference(s, control);
+  Solver solver(s, control);
+  for (int k = 0; k < 300; ++k) solver.step(), reference.step();
+  solver.snapshot(s);
+  const Difference d = difference(s, reference);
+  EXPECT_LT(d.position, 1e-10);
+  EXPECT_LT(d.velocity, 1e-8);
+  EXPECT_DOUBLE_EQ(s.cell_motion.strain_rate[1], -0.7);
+  EXPECT_NEAR(s.packing.cell->length[1] / s.cell_motion.reference_length[1], 1 + 0.7 * s.time, 1e-12);
+  EXPECT_NEAR(s.packing.cell->length[0], reference.length()[0], 1e-10);
+  EXPECT_NE(s.packing.cell->length[0], s.cell_motion.reference_length[0]);
 }
 
 TEST(Solver, MarchesLikeTheReferenceSolver) {

@@ -77,7 +77,8 @@ State random_state(std::uint64_t seed, int grains, int links) {
     *x = d.positive();
   s.time = d.positive(), s.step = d.integer(0, 1 << 30), s.time_step = d.positive();
   s.cell_motion = {d.vec(), d.vec(), d.vec()};
-  if (d.coin()) s.imposed_pressure = d.real();
+  for (auto& stress : s.imposed_stress)
+    if (d.coin()) stress = d.real();
   if (d.coin())
     for (int k = 0; k < grains; ++k) {
       s.memory.half_velocity.push_back(d.vec()), s.memory.half_spin.push_back(d.real());
@@ -162,7 +163,7 @@ void expect_equal(const State& a, const State& b) {
   EXPECT_SAME(cell_motion.reference_length);
   EXPECT_SAME(cell_motion.strain_rate);
   EXPECT_SAME(cell_motion.stress);
-  EXPECT_EQ(a.imposed_pressure, b.imposed_pressure);
+  EXPECT_EQ(a.imposed_stress, b.imposed_stress);
   EXPECT_SAME(memory.half_velocity);
   EXPECT_SAME(memory.half_spin);
   EXPECT_SAME(memory.force);
@@ -180,6 +181,9 @@ void expect_equal(const State& a, const State& b) {
   EXPECT_SAME(progress.started);
   EXPECT_SAME(progress.drag_on);
   EXPECT_SAME(progress.quiet_since);
+  EXPECT_SAME(progress.start_stiffness);
+  EXPECT_SAME(progress.start_stress);
+  EXPECT_SAME(progress.peak_stress);
   EXPECT_SAME(ledger.viscous);
   EXPECT_SAME(ledger.sliding);
   EXPECT_SAME(ledger.rolling);
@@ -286,8 +290,8 @@ TEST(StateFile, OtherFilesAreBadInput) {
   EXPECT_THAT(message_of([&] { read_state(folder / "text.h5"); }), HasSubstr("not a state file"));
   EXPECT_FALSE(is_state_file(folder / "text.h5") || is_state_file(folder / "none.h5") || is_state_file("/tmp"));
   std::string later = encode_state(random_state(1, 2, 1));
-  later.replace(later.find("version 1"), 9, "version 2");
-  EXPECT_THAT(message_of([&] { decode_state(later, "later.h5"); }), HasSubstr("format_version = 2"));
+  later.replace(later.find("version 2"), 9, "version 3");
+  EXPECT_THAT(message_of([&] { decode_state(later, "later.h5"); }), HasSubstr("format_version = 3"));
 }
 
 // The image after changes by the HDF5 library itself, sealed anew: what only the inner checks can find.

@@ -113,12 +113,16 @@ const DiskMoment& DiskReference::disk(std::int64_t id) const {
 
 void DiskReference::step() {
   std::array<double, 2> keep = {1 - drag_ * dt_, 1 - drag_ * dt_}, before = length_, half = length_;
-  if (control_.pressure)
+  if (control_.moves())
     for (std::size_t a = 0; a < 2; ++a) {
       const double old = rate_[a];
-      rate_[a] = old + dt_ * (*control_.pressure - stress_[a]) / control_.inertia;
-      if (control_.max_strain_rate > 0)
-        rate_[a] = std::min(control_.max_strain_rate, std::max(-control_.max_strain_rate, rate_[a]));
+      if (control_.stress[a]) {
+        rate_[a] = old + dt_ * (*control_.stress[a] - stress_[a]) / control_.inertia;
+        if (control_.max_strain_rate > 0)
+          rate_[a] = std::min(control_.max_strain_rate, std::max(-control_.max_strain_rate, rate_[a]));
+      } else {
+        rate_[a] = control_.strain_rate[static_cast<int>(a)];
+      }
       const double rate_now = rate_[a] + 0.5 * (rate_[a] - old);  // extrapolated to the full step
       half[a] = before[a] - 0.5 * dt_ * rate_[a] * reference_[a];
       length_[a] = before[a] - dt_ * rate_[a] * reference_[a];

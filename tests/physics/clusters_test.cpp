@@ -25,7 +25,7 @@ LawScene cohesive() {
 double static_overlap(const LawScene& law) { return law.attraction / law.normal_stiffness; }  // h0
 
 double largest_static_force(const State& s) {
-  return evaluate_certificate(s.packing, s.law, std::nullopt, EquilibriumScene{}).max_force;
+  return evaluate_certificate(s.packing, s.law, {}, EquilibriumScene{}).max_force;
 }
 
 // --- pair ---------------------------------------------------------------------------------------------------------
@@ -254,7 +254,7 @@ TEST(Lattice, HasItsKnownStress) {
       s.time_step = 1e-4;
       CellControl control;
       const double stress = (triangular ? std::sqrt(3) : 1) * normal / d;
-      control.pressure = stress;
+      control.stress = isotropic(stress);
       Solver solver(s, control);
       solver.run(200);
       solver.snapshot(s);

@@ -17,7 +17,7 @@ using oracle::RandomDisks;
 
 CellControl barostat(const State& s, double pressure, double cap) {
   CellControl c;
-  c.pressure = pressure, c.max_strain_rate = cap, c.inertia = 0.3 * oracle::total_mass(s);
+  c.stress = isotropic(pressure), c.max_strain_rate = cap, c.inertia = 0.3 * oracle::total_mass(s);
   return c;
 }
 

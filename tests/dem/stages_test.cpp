@@ -1,0 +1,166 @@
+// Stages of a scene: control of each direction, stiffening, load paths, and what ends a stage.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "dem/clusters.hpp"
+#include "dem/energy.hpp"
+#include "dem/physical_hash.hpp"
+#include "dem/protocol.hpp"
+#include "dem/sample.hpp"
+#include "dem/scene_file.hpp"
+#include "dem/state_file.hpp"
+
+namespace isostat {
+namespace {
+
+using ::testing::HasSubstr;
+
+Scene gas(int count = 40) {
+  Scene scene;
+  scene.grains.count = count;
+  scene.grains.solid_fraction = 0.45;
+  scene.law.normal_stiffness = 1e3;
+  scene.law.attraction_range = 0.02;
+  scene.step.fraction = 0.12;
+  return scene;
+}
+
+StageScene aggregation() {
+  StageScene s;
+  s.velocity = 9.48, s.until = "aggregated";
+  return s;
+}
+
+const State& aggregate() {
+  static const State state = [] {
+    Scene scene = gas();
+    scene.finish.method = Finish::drag;
+    scene.stages = {aggregation()};
+    State s = initial_state(scene, 3);
+    EXPECT_TRUE(run_stages(s, {}, {}).all_met());
+    return s;
+  }();
+  return state;
+}
+
+// The stage run on the aggregate.
+State go_on(const StageScene& stage, RunOutcome* outcome = nullptr, bool energies = false) {
+  State s = aggregate();
+  s.scene.finish.method = Finish::none;
+  s.scene.stages = {stage};
+  s.progress = {};
+  SolverOptions options;
+  options.energies = energies;
+  const RunOutcome o = run_stages(s, options, {});
+  if (outcome) *outcome = o;
+  return s;
+}
+
+TEST(Stages, AggregationEndsWithOneClusterInEquilibrium) {
+  EXPECT_EQ(count_clusters(aggregate().packing), 1u);
+  EXPECT_TRUE(aggregate().certificate.equilibrated);
+}
+
+TEST(Stages, StiffeningFollowsTheExponentialAndKeepsTheEnergyLedger) {
+  StageScene stage;
+  stage.normal_stiffness = 1e4, stage.stiffening_time = 2, stage.until = "time", stage.time = 1;
+  const State half = go_on(stage, nullptr, true);
+  EXPECT_NEAR(half.law.normal_stiffness, 1e3 * std::sqrt(10.0), 1e3 * std::sqrt(10.0) * 2e-2);
+  EXPECT_EQ(half.law.tangential_stiffness, half.law.normal_stiffness);
+  EXPECT_NEAR(half.law.rolling_stiffness, 1e-4 * half.law.normal_stiffness, 1e-9);
+  EXPECT_NEAR(half.time_step, 0.12 * std::sqrt(1e-4) * aggregate().time_step / (0.12 * std::sqrt(1e-3)), 1e-9);
+  const double before = energies(aggregate()).total(), after = energies(half).total();
+  EXPECT_NEAR(after, before, 2e-4 * std::abs(energies(half).adhesive) + 1e-6);
+
+  stage.time = 3;
+  const State whole = go_on(stage);
+  EXPECT_EQ(whole.law.normal_stiffness, 1e4);
+}
+
+TEST(Stages, StiffeningRestartsBitForBit) {
+  StageScene stage;
+  stage.normal_stiffness = 1e4, stage.stiffening_time = 2, stage.until = "time", stage.time = 1.5;
+  const State straight = go_on(stage);
+  State s = aggregate();
+  s.scene.stages = {stage}, s.progress = {}, s.scene.finish.method = Finish::none;
+  int polls = 0;
+  RunHooks stop;
+  stop.interrupted = [&] { return ++polls > 25; };
+  ASSERT_TRUE(run_stages(s, {}, stop).interrupted);
+  ASSERT_LT(s.law.normal_stiffness, 1e4);
+  s = decode_state(encode_state(s), "memory").state;
+  run_stages(s, {}, {});
+  EXPECT_EQ(physical_hash(s), physical_hash(straight));
+}
+
+TEST(Stages, TensionTearsTheAggregateApart) {
+  StageScene stage;
+  stage.strain_rate_1 = -0.02, stage.stress_2 = 0.0, stage.until = "failure", stage.max_time = 100;
+  RunOutcome outcome;
+  const State torn = go_on(stage, &outcome);
+  ASSERT_TRUE(outcome.all_met()) << outcome.stages.at(0).reason;
+  EXPECT_GT(torn.packing.cell->length[0], aggregate().packing.cell->length[0]);
+  EXPECT_GT(torn.progress.peak_stress, 1e-3);
+  EXPECT_NEAR(torn.cell_motion.strain_rate[0], -0.02, 1e-15);
+}
+
+TEST(Stages, StrainEndsADrivenStage) {
+  StageScene stage;
+  stage.strain_rate_2 = 0.05, stage.until = "strain", stage.strain = 0.02;
+  RunOutcome outcome;
+  const State s = go_on(stage, &outcome);
+  EXPECT_TRUE(outcome.all_met());
+  EXPECT_NEAR(1 - s.packing.cell->length[1] / aggregate().packing.cell->length[1], 0.02, 0.05 * 1.1);
+  EXPECT_GE(1 - s.packing.cell->length[1] / aggregate().packing.cell->length[1], 0.02);
+  EXPECT_EQ(s.packing.cell->length[0], aggregate().packing.cell->length[0]) << "nothing moves that direction";
+}
+
+TEST(Stages, LoadPathBecomesStages) {
+  const Scene scene = parse_scene(
+      "[law]\nnormal_stiffness = 1e5\n[[stage]]\nvelocity = 2\npressures = [0.01, 0.1, 0.01]\n[[stage]]\nuntil = "
+      "\"time\"\ntime = 1\n",
+      "scene.toml");
+  ASSERT_EQ(scene.stages.size(), 4u);
+  EXPECT_EQ(scene.stages[1].pressure, 0.1);
+  EXPECT_EQ(scene.stages[2].pressure, 0.01);
+  EXPECT_EQ(scene.stages[0].velocity, 2);
+  EXPECT_EQ(scene.stages[1].velocity, 0);
+  EXPECT_EQ(scene.stages[3].until, "time");
+  EXPECT_TRUE(scene.stages[0].pressures.empty());
+}
+
+TEST(Stages, EveryStageEndIsSeen) {
+  Scene scene = gas(20);
+  StageScene brief;
+  brief.until = "time", brief.time = 0.2;
+  scene.stages = {brief, brief, brief};
+  State s = initial_state(scene, 1);
+  std::vector<int> ends;
+  RunHooks hooks;
+  hooks.stage_end = [&](const State& at) { ends.push_back(at.progress.stage); };
+  run_stages(s, {}, hooks);
+  EXPECT_EQ(ends, (std::vector<int>{1, 2, 3}));
+}
+
+std::string refused(const std::string& stage) {
+  try {
+    parse_scene("[[stage]]\n" + stage, "scene.toml");
+  } catch (const std::exception& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(Stages, ImpossibleControlIsRefused) {
+  EXPECT_THAT(refused("stress_1 = 0.1\nstrain_rate_1 = 0.1\nuntil = \"strain\"\nstrain = 0.1\n"),
+              HasSubstr("stage.0.strain_rate_1"));
+  EXPECT_THAT(refused("strain_rate_1 = 0.1\n"), HasSubstr("never comes to rest"));
+  EXPECT_THAT(refused("pressure = 0.1\nuntil = \"failure\"\n"), HasSubstr("needs a strain rate"));
+  EXPECT_THAT(refused("strain_rate_1 = 0.1\nuntil = \"strain\"\n"), HasSubstr("stage.0.strain"));
+  EXPECT_THAT(refused("pressure = 0.1\npressures = [0.1]\n"), HasSubstr("either pressure or pressures"));
+}
+
+}  // namespace
+}  // namespace isostat
