@@ -29,8 +29,14 @@ PairForceTally pair_forces(const PairForceInput& input) {
   const double braking = crossing_braking(law, in.time_step);
   V virial_x(0.0), virial_y(0.0), sliding(0.0), rolling(0.0);
 
+  // The loads of a batch are added while the next one is under way: a batch is a long chain of dependent operations
+  // that ends with as many instructions as it began with, and the processor looks ahead less far than two batches.
+  V late_x(0.0), late_y(0.0), late_a(0.0), late_b(0.0);
+  std::size_t late = in.begin;
+
   for (std::size_t k = in.begin; k < in.end; k += V::size()) {
     PairDifference<V> d = load_differences(in.rows, in.pairs.i + k, in.pairs.j + k, V());
+    add_loads(in.loads, in.pairs.i + late, in.pairs.j + late, late_x, late_y, late_a, late_b);
     if constexpr (kImages) {
       d.x += image_offset<V>(in, k, 0);
       d.y += image_offset<V>(in, k, 1);
@@ -89,8 +95,9 @@ PairForceTally pair_forces(const PairForceInput& input) {
       virial_x = mul_add<V>(fx, d.x, virial_x);
       virial_y = mul_add<V>(fy, d.y, virial_y);
     }
-    add_loads(in.loads, in.pairs.i + k, in.pairs.j + k, fx, fy, -(f.lever_ratio * tangential), moment);
+    late = k, late_x = fx, late_y = fy, late_a = -(f.lever_ratio * tangential), late_b = moment;
   }
+  add_loads(in.loads, in.pairs.i + late, in.pairs.j + late, late_x, late_y, late_a, late_b);
 
   PairForceTally sum;
   if constexpr (kTally != Tally::nothing) sum.virial[0] = reduce(virial_x), sum.virial[1] = reduce(virial_y);
