@@ -6,6 +6,7 @@
 #include <fstream>
 #include <memory>
 
+#include "analysis/finishing/newton_finishing.hpp"
 #include "analysis/version.hpp"
 #include "dem/atomic_file.hpp"
 #include "dem/input_error.hpp"
@@ -58,11 +59,12 @@ class SampleRun {
     }
     State state = start();
     const RunHooks hooks = make_hooks(state);
+    NewtonFinishing finisher;
     SolverOptions options;
     options.threads = job_.threads;
     options.energies = job_.scene.output.energies;
     try {
-      outcome.run = run_stages(state, options, hooks);
+      outcome.run = run_stages(state, options, hooks, &finisher);
     } catch (const RunError& e) {
       outcome.code = exit_unfinished;
       outcome.blew_up = true;

@@ -9,6 +9,7 @@
 
 #include "dem/clusters.hpp"
 #include "dem/energy.hpp"
+#include "dem/input_error.hpp"
 #include "dem/random.hpp"
 #include "dem/sample.hpp"
 
@@ -36,7 +37,9 @@ std::size_t loaded_contacts(const State& s) {
   }));
 }
 
-constexpr double kCarried = 0.5;  // [-] of the imposed stress that may be missing when the finishing drag comes on
+constexpr double kCarried = 0.5;  // [-] of the imposed stress that may be missing when finishing begins
+constexpr double kRinging = 20;   // [-] times the kinetic tolerance: static solves follow what still moves
+constexpr double kWait = 0.1;     // [-] of the time since the start of the stage, after a static solve that failed
 constexpr double kNetwork = 0.9;  // [links a grain] a connected network has one at least; rattlers have none
 
 // Maxwell velocities with the drift of the centre of mass removed and the rms of |v| equal to V0; spins zero.
@@ -141,68 +144,74 @@ constexpr std::int64_t kGrainStepsPerSlice = 10'000'000;  // about a tenth of a 
 // One stage from wherever it stands to its end.
 class StageRun {
  public:
-  StageRun(State& state, const SolverOptions& options, const RunHooks& hooks)
+  StageRun(State& state, const SolverOptions& options, const RunHooks& hooks, StaticSolver* finisher)
       : s_(state),
         stage_(state.scene.stages[static_cast<std::size_t>(state.progress.stage)]),
         hooks_(hooks),
-        solver_(state, cell_control(state, stage_), options),
+        options_(options),
+        finisher_(finisher),
+        solver_(std::in_place, state, cell_control(state, stage_), options),
         interval_(check_interval(state.time_step)),
         slice_(std::max<std::int64_t>(1, kGrainStepsPerSlice / static_cast<std::int64_t>(state.packing.bodies.size()))),
         last_checkpoint_(wall_seconds()) {
-    if (s_.progress.drag_on) solver_.set_drag(s_.scene.finish.drag);
+    if (s_.progress.drag_on) solver_->set_drag(s_.scene.finish.drag);
     if (hooks_.observe_interval > 0)
       last_observation_ = std::floor((s_.time + 0.5 * s_.time_step) / hooks_.observe_interval);
-    solid_fraction_before_ = solid_fraction(s_.packing.bodies, solver_.cell());
+    solid_fraction_before_ = solid_fraction(s_.packing.bodies, solver_->cell());
   }
 
   // True when the stage is over; false when it was interrupted.
   bool run(StageOutcome& outcome) {
     for (;;) {
-      if (solver_.steps() % interval_ == 0 || at_end()) {
+      if (solver_->steps() % interval_ == 0 || at_end()) {
         look();
         if (over(outcome)) return true;
-        update_drag();
+        if (only_creep_is_left()) finish();
+        if (over(outcome)) return true;
       }
       if (hooks_.interrupted && hooks_.interrupted()) {
-        solver_.snapshot(s_);
+        solver_->snapshot(s_);
         certify();
         return false;
       }
       stiffen();
-      solver_.run(steps_to_next_stop());
+      solver_->run(steps_to_next_stop());
       observe();
     }
   }
-  const Solver& solver() const { return solver_; }
+  StepTimes times() const {
+    StepTimes sum = times_before_;
+    return sum += solver_->times();
+  }
 
  private:
   double end_time() const { return stage_.until == "time" ? s_.progress.start_time + stage_.time : INFINITY; }
-  bool at_end() const { return solver_.time() >= end_time() - 0.5 * s_.time_step; }
+  bool at_end() const { return solver_->time() >= end_time() - 0.5 * s_.time_step; }
   bool waits_for_equilibrium() const { return stage_.until == "equilibrium" || stage_.until == "aggregated"; }
 
   bool stiffening() const { return stage_.normal_stiffness && s_.law.normal_stiffness != *stage_.normal_stiffness; }
   // K_N on its way from what it was to what the stage wants, as a function of time alone.
   void stiffen() {
-    if (!stiffening() || solver_.steps() % kStiffenEvery != 0) return;
+    if (!stiffening() || solver_->steps() % kStiffenEvery != 0) return;
     const double from = s_.progress.start_stiffness, to = *stage_.normal_stiffness;
-    const double part = (solver_.time() - s_.progress.start_time) / stage_.stiffening_time;
+    const double part = (solver_->time() - s_.progress.start_time) / stage_.stiffening_time;
     LawScene law = s_.scene.law;
     law.normal_stiffness = part < 1 ? from * std::pow(to / from, part) : to;
     s_.law = resolve(law);
-    solver_.set_law(s_.law);
+    solver_->set_law(s_.law);
   }
 
   std::int64_t steps_to_next_stop() const {
-    std::int64_t steps = std::min(slice_, interval_ - solver_.steps() % interval_);
+    std::int64_t steps = std::min(slice_, interval_ - solver_->steps() % interval_);
     double stop = end_time();
     if (hooks_.observe && hooks_.observe_interval > 0)
       stop = std::min(stop, (last_observation_ + 1) * hooks_.observe_interval);
     if (hooks_.snapshot)
       for (double t : s_.scene.output.snapshot_times)
-        if (t > solver_.time() + 0.5 * s_.time_step) stop = std::min(stop, t);
-    if (stiffening()) steps = std::min(steps, kStiffenEvery - solver_.steps() % kStiffenEvery);
+        if (t > solver_->time() + 0.5 * s_.time_step) stop = std::min(stop, t);
+    if (stiffening()) steps = std::min(steps, kStiffenEvery - solver_->steps() % kStiffenEvery);
     if (std::isfinite(stop))
-      steps = std::clamp<std::int64_t>(std::llround((stop - solver_.time()) / s_.time_step), 1, steps);
+      steps = std::clamp<std::int64_t>(std::llround((stop - solver_->time()) / s_.time_step), 1, steps);
     return steps;
   }
 
@@ -210,23 +219,23 @@ class StageRun {
   void observe() {
     const double half = 0.5 * s_.time_step;
     if (hooks_.observe && hooks_.observe_interval > 0 &&
-        solver_.time() + half >= (last_observation_ + 1) * hooks_.observe_interval) {
-      last_observation_ = std::floor((solver_.time() + half) / hooks_.observe_interval);
-      solver_.check_sanity();
-      solver_.snapshot(s_);
+        solver_->time() + half >= (last_observation_ + 1) * hooks_.observe_interval) {
+      last_observation_ = std::floor((solver_->time() + half) / hooks_.observe_interval);
+      solver_->check_sanity();
+      solver_->snapshot(s_);
       certify();
       hooks_.observe(s_);
     }
     if (hooks_.snapshot) {
-      const double now = solid_fraction(s_.packing.bodies, solver_.cell());
+      const double now = solid_fraction(s_.packing.bodies, solver_->cell());
       bool wanted = false;
       for (double phi : s_.scene.output.snapshot_solid_fractions)
         wanted = wanted || (phi - solid_fraction_before_) * (phi - now) <= 0;
-      for (double t : s_.scene.output.snapshot_times) wanted = wanted || std::abs(t - solver_.time()) <= half;
+      for (double t : s_.scene.output.snapshot_times) wanted = wanted || std::abs(t - solver_->time()) <= half;
       solid_fraction_before_ = now;
       if (wanted) {
-        solver_.check_sanity();
-        solver_.snapshot(s_);
+        solver_->check_sanity();
+        solver_->snapshot(s_);
         certify();
         hooks_.snapshot(s_);
       }
@@ -240,8 +249,8 @@ class StageRun {
   }
 
   void look() {
-    solver_.check_sanity();
-    solver_.snapshot(s_);
+    solver_->check_sanity();
+    solver_->snapshot(s_);
     certify();
     if (hooks_.progress)
       hooks_.progress({s_.progress.stage, s_.time, solid_fraction(s_.packing.bodies, *s_.packing.cell),
@@ -260,7 +269,7 @@ class StageRun {
     double largest = 0;
     for (int a = 0; a < 2; ++a)
       if (driven(a))
-        largest = std::max(largest, std::abs(1 - solver_.cell().length[a] / s_.cell_motion.reference_length[a]));
+        largest = std::max(largest, std::abs(1 - solver_->cell().length[a] / s_.cell_motion.reference_length[a]));
     return largest;
   }
   // Change of the stress of the driven directions since the stage began [F0/a].
@@ -312,10 +321,10 @@ class StageRun {
     return false;
   }
 
-  // The finishing drag comes on when only creep is left: there is a network (as many loaded contacts as grains), it
-  // carries most of the imposed stress, and the kinetic criterion has been met for finish.quiet_time. Earlier it would
-  // stop the very motions that make the packing: when a compression begins nothing moves fast either.
-  void update_drag() {
+  // Only creep is left when there is a network (as many loaded contacts as grains), it carries most of the imposed
+  // stress, and the kinetic criterion (static solves: kRinging times it) has been met for finish.quiet_time. To finish
+  // earlier would stop the very motions that make the packing: when a compression begins nothing moves fast either.
+  bool only_creep_is_left() {
     const Certificate& c = s_.certificate;
     const double carried = std::max(kCarried * std::abs(largest_stress(s_.imposed_stress).value_or(0)),
                                     10 * c.tolerance_pressure * c.force_scale);
@@ -323,17 +332,44 @@ class StageRun {
         waits_for_equilibrium() && !stiffening() && (stage_.until != "aggregated" || count_clusters(s_.packing) == 1) &&
         static_cast<double>(loaded_contacts(s_)) >= kNetwork * static_cast<double>(s_.packing.bodies.size()) &&
         c.pressure_error * c.force_scale < carried;
-    if (!network || !(c.kinetic_energy_per_grain < c.tolerance_kinetic)) s_.progress.quiet_since = s_.time;
-    if (s_.scene.finish.method != Finish::drag || s_.progress.drag_on) return;
-    if (s_.time - s_.progress.quiet_since < s_.scene.finish.quiet_time) return;
-    s_.progress.drag_on = true;
-    solver_.set_drag(s_.scene.finish.drag);
+    double& since = s_.progress.quiet_since;
+    const double still = c.tolerance_kinetic * (s_.scene.finish.method == Finish::newton ? kRinging : 1.0);
+    if (!network || !(c.kinetic_energy_per_grain < still)) since = std::max(since, s_.time);
+    return s_.time - since >= s_.scene.finish.quiet_time;
+  }
+
+  void finish() {
+    if (s_.scene.finish.method == Finish::drag && !s_.progress.drag_on) {
+      s_.progress.drag_on = true;
+      solver_->set_drag(s_.scene.finish.drag);
+    }
+    if (s_.scene.finish.method == Finish::newton && !driven(0) && !driven(1)) settle();
+  }
+
+  // Static solves instead of waiting. If they cannot, nothing has changed: the run goes on and tries again after a
+  // time that grows with that of the stage.
+  void settle() {
+    const CellControl control = cell_control(s_, stage_);
+    const FinishingReport report = finisher_->settle(s_, {control.stress, control.inertia});
+    if (report.settled) {
+      times_before_ += solver_->times();
+      solver_.emplace(s_, control, options_);
+      solver_->snapshot(s_);
+      s_.certificate.finishing = report.moving > 0
+                                     ? "newton, a floppy mode still moves " + std::to_string(report.moving) + " grains"
+                                     : "newton";
+      certify();
+    }
+    s_.progress.quiet_since = s_.time + kWait * (s_.time - s_.progress.start_time);
   }
 
   State& s_;
   const StageScene& stage_;
   const RunHooks& hooks_;
-  Solver solver_;
+  const SolverOptions options_;
+  StaticSolver* finisher_;
+  std::optional<Solver> solver_;
+  StepTimes times_before_;  // of the solvers before a static solve
   std::int64_t interval_, slice_;
   double last_observation_ = 0;  // [observe_interval]
   double solid_fraction_before_ = 0;
@@ -346,17 +382,19 @@ bool RunOutcome::all_met() const {
   return std::all_of(stages.begin(), stages.end(), [](const StageOutcome& s) { return s.met; });
 }
 
-RunOutcome run_stages(State& state, const SolverOptions& options, const RunHooks& hooks) {
+RunOutcome run_stages(State& state, const SolverOptions& options, const RunHooks& hooks, StaticSolver* finisher) {
+  if (state.scene.finish.method == Finish::newton && !finisher)
+    throw InputError("scene", 0, "finish.method", "newton", "needs a static solver, and this program brings none");
   RunOutcome outcome;
   const double wall_start = wall_seconds(), cpu_start = cpu_seconds(options.threads);
   const auto stages = static_cast<std::int32_t>(state.scene.stages.size());
   const std::int64_t first_step = state.step;
   while (state.progress.stage < stages) {
     if (!state.progress.started) open_stage(state, state.scene.stages[static_cast<std::size_t>(state.progress.stage)]);
-    StageRun run(state, options, hooks);
+    StageRun run(state, options, hooks, finisher);
     StageOutcome stage;
     outcome.interrupted = !run.run(stage);
-    outcome.times += run.solver().times();
+    outcome.times += run.times();
     if (outcome.interrupted) break;
     outcome.stages.push_back(stage);
     ++state.progress.stage;

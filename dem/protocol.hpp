@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dem/equilibrium.hpp"
+#include "dem/finishing.hpp"
 #include "dem/solver.hpp"
 #include "dem/state.hpp"
 
@@ -51,6 +52,8 @@ struct RunOutcome {
 
 // Goes on from wherever state.progress stands, to the end of the last stage. The state is left at the last instant
 // with its certificate. Throws RunError if the run blows up, after leaving the last sane snapshot in `state`.
-RunOutcome run_stages(State& state, const SolverOptions& options, const RunHooks& hooks);
+// finish.method = "newton" needs a finisher, else InputError.
+RunOutcome run_stages(State& state, const SolverOptions& options, const RunHooks& hooks,
+                      StaticSolver* finisher = nullptr);
 
 }  // namespace isostat

@@ -59,13 +59,13 @@ struct EquilibriumScene {
   friend bool operator==(const EquilibriumScene&, const EquilibriumScene&) = default;
 };
 
-enum class Finish { none, drag };
+enum class Finish { none, drag, newton };
 
 // [finish]: what ends a stage faster than the bare law does; "none" is the paper.
 struct FinishScene {
   Finish method = Finish::none;
   double drag = 0.5;         // [1/T0] rate of the global drag -drag * m * v
-  double quiet_time = 10.0;  // [T0] switch on when a network that carries the stress has met the kinetic criterion
+  double quiet_time = 10.0;  // [T0] begin when a network that carries the stress has met the kinetic criterion
                              // for so long
   friend bool operator==(const FinishScene&, const FinishScene&) = default;
 };

@@ -42,6 +42,7 @@ bool has_friction(const Scene& s) { return s.law.friction > 0; }
 bool has_rolling(const Scene& s) { return s.law.rolling; }
 bool has_attraction(const Scene& s) { return s.law.attraction > 0; }
 bool has_drag(const Scene& s) { return s.finish.method == Finish::drag; }
+bool has_finishing(const Scene& s) { return s.finish.method != Finish::none; }
 bool has_series(const Scene& s) { return !s.output.series.empty(); }
 
 std::vector<SceneKey> make_table() {
@@ -251,12 +252,13 @@ std::vector<SceneKey> make_table() {
        in<&S::finish, &FinishScene::method>,
        "",
        any,
-       {"none", "drag"},
+       {"none", "drag", "newton"},
        "",
        nullptr,
        "",
        "What ends a stage faster than the bare law: none is the paper's pure law, drag a global viscous drag at the "
-       "end. The state records which one acted."},
+       "end, newton static solves under the same law down to rounding (docs/equilibrium.md). The state records which "
+       "one acted."},
       {"finish.drag",
        in<&S::finish, &FinishScene::drag>,
        "1/T0",
@@ -272,9 +274,9 @@ std::vector<SceneKey> make_table() {
        not_negative,
        {},
        "",
-       has_drag,
-       "finish.method = \"drag\"",
-       "The drag starts when the kinetic criterion has been met for so long, in a network that carries the imposed "
+       has_finishing,
+       "finish.method is not \"none\"",
+       "Finishing starts when the kinetic criterion has been met for so long, in a network that carries the imposed "
        "stress."},
 
       {"stage.pressure",

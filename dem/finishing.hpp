@@ -1,0 +1,38 @@
+// Finishing a stage by static solves: what a run asks for and what it gets back. dem names the interface, analysis
+// implements it, the app introduces them to each other.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "dem/state.hpp"
+
+namespace isostat {
+
+// How the cell is held while a packing settles.
+struct FinishingRequest {
+  ImposedStress stress;     // [F0/a] imposed in each direction; none: that edge keeps its length
+  double cell_inertia = 1;  // M of Gilabert 2007, Eq. 3 [m]
+};
+
+struct FinishingReport {
+  bool settled = false;             // false: the state was not touched
+  int steps = 0;                    // accepted implicit steps
+  std::int64_t factorisations = 0;  // of the tangent stiffness
+  double residual = 0;              // [F1] largest net force (moment / a, stress error a) at the end
+  std::int64_t moving = 0;          // grains that a floppy mode still moves: the residual does not vanish
+  std::string reason;               // why it did not settle, or what is left
+};
+
+class StaticSolver {
+ public:
+  virtual ~StaticSolver() = default;
+  // From a state in which only creep is left to rest in equilibrium under the same law, spring histories included.
+  // If it cannot, the state stays as it is, bit for bit. `time` does not advance; the solver's memory is emptied, so
+  // that a Solver made from the state starts from packing and links; the energy that the solve takes out goes to
+  // ledger.injected. The result depends neither on threads nor on the order in which the grains are stored.
+  virtual FinishingReport settle(State& state, const FinishingRequest& request) = 0;
+};
+
+}  // namespace isostat

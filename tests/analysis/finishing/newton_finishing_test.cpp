@@ -1,0 +1,282 @@
+// Packings brought to rest by static solves: against the solver marched to the end, and what is refused.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "analysis/finishing/newton_finishing.hpp"
+#include "dem/energy.hpp"
+#include "dem/equilibrium.hpp"
+#include "dem/input_error.hpp"
+#include "dem/physical_hash.hpp"
+#include "dem/protocol.hpp"
+#include "dem/sample.hpp"
+#include "dem/state_file.hpp"
+#include "tests/oracle/disk_states.hpp"
+
+namespace isostat {
+namespace {
+
+constexpr double kPressure = 0.5;
+
+Scene scene_of(Finish method, bool rolling = true, double attraction = 1) {
+  Scene scene;
+  scene.grains.count = 60;
+  scene.law.normal_stiffness = 1e4;
+  scene.law.attraction = attraction, scene.law.rolling = rolling;
+  scene.law.attraction_range = 1e-2;
+  scene.finish.method = method;
+  StageScene stage;
+  stage.pressure = attraction > 0 ? kPressure : 1.0;
+  stage.max_strain_rate = 0.2;
+  scene.stages = {stage};
+  return scene;
+}
+
+FinishingRequest request_for(const State& s, double stress) {
+  return {{stress, stress}, s.scene.cell.inertia * oracle::total_mass(s)};
+}
+
+// A compression stopped while the packing still rings.
+State ringing(const Scene& scene, std::uint64_t seed, double time) {
+  State s = initial_state(scene, seed);
+  RunHooks hooks;
+  hooks.max_time = time;
+  run_stages(s, {}, hooks);
+  return s;
+}
+
+// Marched on by the solver under a drag, to forces far below the tolerance: the slow, obvious way to rest.
+State marched_to_rest(State s, double stress, double time) {
+  CellControl c;
+  c.stress = isotropic(stress), c.max_strain_rate = 0.2;
+  c.inertia = s.scene.cell.inertia * oracle::total_mass(s);
+  Solver solver(s, c);
+  solver.set_drag(1.0);
+  solver.run(static_cast<std::int64_t>(time / s.time_step));
+  solver.snapshot(s);
+  return s;
+}
+
+using Name = std::tuple<std::int64_t, std::int64_t>;  // ids; no two images of a pair in these packings
+std::map<Name, Link<2>> by_ids(const State& s) {
+  std::map<Name, Link<2>> links;
+  for (const Link<2>& l : s.packing.links) {
+    const auto i = s.packing.bodies.id[static_cast<std::size_t>(l.i)];
+    const auto j = s.packing.bodies.id[static_cast<std::size_t>(l.j)];
+    Link<2> turned = l;
+    if (i > j) turned.moment = -l.moment;
+    links[{std::min(i, j), std::max(i, j)}] = turned;
+  }
+  return links;
+}
+
+TEST(NewtonFinishing, EndsWhereTheSolverEnds) {
+  for (const bool rolling : {true, false})
+    for (const double attraction : {1.0, 0.0}) {
+      SCOPED_TRACE(std::string(rolling ? "rolling" : "friction") + (attraction > 0 ? ", cohesion" : ""));
+      const double stress = attraction > 0 ? kPressure : 1.0;
+      const State start = ringing(scene_of(Finish::none, rolling, attraction), 3, 60);
+      ASSERT_GT(start.certificate.max_force, 1e-6);
+      State s = start;
+      const FinishingReport report = NewtonFinishing().settle(s, request_for(s, stress));
+      ASSERT_TRUE(report.settled) << report.reason;
+      EXPECT_EQ(report.moving, 0);
+      const Certificate c = evaluate_certificate(s);
+      EXPECT_TRUE(c.equilibrated);
+      EXPECT_EQ(c.kinetic_energy_per_grain, 0);
+      // Rounding of coordinates: K_N eps L, with L about 10.
+      EXPECT_LT(c.max_force, 2e-10);
+      EXPECT_LT(c.max_moment, 2e-10);
+      EXPECT_LT(c.pressure_error, 2e-10);
+      EXPECT_TRUE(s.memory.half_velocity.empty());
+      EXPECT_EQ(s.time, start.time);
+      EXPECT_NEAR(energies(s).total(), energies(start).total(), 1e-12 * std::abs(energies(s).elastic));
+
+      // The same network of forces, both ways; without cohesion rattlers touch here and there, unloaded.
+      const auto fast = by_ids(s), slow = by_ids(marched_to_rest(start, stress, 300));
+      double largest = 0;
+      for (const auto& [name, link] : slow) largest = std::max(largest, std::abs(link.normal_force));
+      const auto agree = [largest](const auto& one, const auto& other) {
+        int loaded = 0;
+        for (const auto& [name, link] : one) {
+          if (std::abs(link.normal_force) < 0.02 * largest) continue;
+          ++loaded;
+          ASSERT_TRUE(other.contains(name));
+          EXPECT_NEAR(other.at(name).normal_force, link.normal_force, 0.01 * largest);
+          EXPECT_NEAR(other.at(name).tangential_force, link.tangential_force, 0.01 * largest);
+        }
+        EXPECT_GT(loaded, 40);
+      };
+      agree(fast, slow), agree(slow, fast);
+      if (attraction > 0) {
+        EXPECT_EQ(fast.size(), slow.size());
+      }
+      // The solver takes it for rest too: nothing happens in a few T0.
+      const State later = marched_to_rest(s, stress, 5);
+      EXPECT_LT(evaluate_certificate(later.packing, s.law, isotropic(stress), s.scene.equilibrium).max_force, 1e-9);
+    }
+}
+
+// The load is taken back by a third: contacts open, springs slide back, and the springs know where they came from.
+TEST(NewtonFinishing, ContactsOpenAndSlideWhileItSettles) {
+  State s = ringing(scene_of(Finish::none, false, 0.0), 3, 60);
+  ASSERT_TRUE(NewtonFinishing().settle(s, request_for(s, 1.0)).settled);
+  const auto before = by_ids(s);
+  s.imposed_stress = isotropic(0.6);
+  s.scene.equilibrium.kinetic_energy = 1e-5;
+  const State start = s;
+  int slid = 0;
+  const FinishingReport report = NewtonFinishing().settle(s, request_for(s, 0.6));
+  ASSERT_TRUE(report.settled) << report.reason;
+  EXPECT_LT(report.residual, 2e-10);
+  const auto after = by_ids(s);
+  int opened = 0;
+  for (const auto& [name, link] : before) opened += !after.contains(name);
+  EXPECT_GT(opened, 0);
+  for (const auto& [name, link] : after)
+    slid += yield_margin(link.gap, link.tangential_force, link.moment, s.law).sliding <= kYieldTolerance;
+  const auto slow = by_ids(marched_to_rest(start, 0.6, 400));
+  int missing = 0;
+  double largest = 0, difference = 0;
+  for (const auto& [name, link] : slow) {
+    missing += !after.contains(name);
+    largest = std::max(largest, link.normal_force);
+    if (after.contains(name))
+      difference = std::max(difference, std::abs(after.at(name).normal_force - link.normal_force));
+  }
+  EXPECT_LE(missing, 2);
+  EXPECT_LT(difference, 0.1 * largest);  // the two paths differ: one rings, the other does not
+}
+
+TEST(NewtonFinishing, LeavesAStateItCannotSettleAsItIs) {
+  // A gas: nothing takes its energy.
+  Scene scene = scene_of(Finish::none, false, 0);
+  scene.stages[0].pressure = std::nullopt;
+  scene.stages[0].until = "time", scene.stages[0].time = 1;
+  State start = initial_state(scene, 3);
+  for (std::size_t k = 0; k < start.packing.bodies.size(); ++k)
+    start.packing.bodies.velocity[k] = {{std::cos(static_cast<double>(k)), std::sin(static_cast<double>(k))}};
+  start.law.damping = 0;
+  run_stages(start, {}, {});
+  State s = start;
+  const FinishingReport report = NewtonFinishing().settle(s, {{}, 1});
+  EXPECT_FALSE(report.settled);
+  EXPECT_FALSE(report.reason.empty());
+  EXPECT_TRUE(encode_state(s) == encode_state(start));
+}
+
+// Grains apart in a cell under a stress below the tolerance: by the criteria an equilibrium, but nothing ever stops it.
+TEST(NewtonFinishing, SaysThatAFloppyModeIsStillMoving) {
+  State s = initial_state(scene_of(Finish::none), 3);
+  ASSERT_TRUE(s.packing.links.empty());
+  s.imposed_stress = isotropic(5e-5);
+  const FinishingReport report = NewtonFinishing().settle(s, request_for(s, 5e-5));
+  EXPECT_TRUE(report.settled);
+  EXPECT_EQ(report.moving, 60);
+  EXPECT_NEAR(report.residual, 5e-5, 1e-6);
+  EXPECT_EQ(report.reason, "a floppy mode is still moving");
+}
+
+// The storage order is the solver's business: turned around, the same bits come out.
+TEST(NewtonFinishing, DoesNotSeeTheStorageOrder) {
+  State a = ringing(scene_of(Finish::none), 4, 60);
+  State b = a;
+  const auto n = static_cast<std::int32_t>(a.packing.bodies.size());
+  const Bodies<2>& from = a.packing.bodies;
+  Bodies<2>& to = b.packing.bodies;
+  for (std::size_t k = 0; k < from.size(); ++k) {
+    const std::size_t o = from.size() - 1 - k;
+    to.id[k] = from.id[o], to.position[k] = from.position[o], to.velocity[k] = from.velocity[o];
+    to.spin[k] = from.spin[o], to.radius[k] = from.radius[o], to.mass[k] = from.mass[o],
+    to.inertia[k] = from.inertia[o];
+  }
+  b.memory = {};
+  for (Link<2>& l : b.packing.links) l.i = n - 1 - l.i, l.j = n - 1 - l.j;
+  std::reverse(b.packing.links.begin(), b.packing.links.end());
+  const FinishingRequest request = request_for(a, kPressure);
+  ASSERT_TRUE(NewtonFinishing().settle(a, request).settled);
+  ASSERT_TRUE(NewtonFinishing().settle(b, request).settled);
+  for (std::size_t k = 0; k < from.size(); ++k)
+    EXPECT_TRUE(a.packing.bodies.position[k] == to.position[from.size() - 1 - k]) << k;
+  EXPECT_EQ(a.packing.cell->length, b.packing.cell->length);
+  const auto links_a = by_ids(a), links_b = by_ids(b);
+  for (const auto& [name, link] : links_a) EXPECT_EQ(links_b.at(name).tangential_force, link.tangential_force);
+}
+
+TEST(NewtonFinishing, OneEdgeMayBeFixed) {
+  const State start = ringing(scene_of(Finish::none), 3, 60);
+  State s = start;
+  FinishingRequest q = request_for(s, kPressure);
+  q.stress = {std::nullopt, kPressure};
+  const FinishingReport report = NewtonFinishing().settle(s, q);
+  ASSERT_TRUE(report.settled) << report.reason;
+  EXPECT_EQ(s.packing.cell->length[0], start.packing.cell->length[0]);
+  EXPECT_NE(s.packing.cell->length[1], start.packing.cell->length[1]);
+  EXPECT_NEAR(measured_stress(s.packing).yy, kPressure, 1e-9);
+}
+
+TEST(NewtonFinishing, EndsAStageOfARun) {
+  const Scene scene = scene_of(Finish::newton);
+  State s = initial_state(scene, 5);
+  NewtonFinishing finisher;
+  const RunOutcome outcome = run_stages(s, {}, {}, &finisher);
+  ASSERT_TRUE(outcome.all_met());
+  EXPECT_EQ(s.certificate.finishing, "newton");
+  EXPECT_TRUE(s.certificate.equilibrated);
+  EXPECT_LT(s.certificate.max_force, 1e-9);
+  EXPECT_LT(s.certificate.kinetic_energy_per_grain, 1e-20);
+}
+
+TEST(NewtonFinishing, ARunWithoutASolverIsRefused) {
+  State s = initial_state(scene_of(Finish::newton), 5);
+  EXPECT_THROW(run_stages(s, {}, {}), InputError);
+}
+
+// Refuses so many times before it does its work: the run must go on by itself meanwhile.
+class Reluctant : public StaticSolver {
+ public:
+  explicit Reluctant(int refusals) : left_(refusals) {}
+  FinishingReport settle(State& state, const FinishingRequest& request) override {
+    times.push_back(state.time);
+    if (left_-- > 0) return {};
+    return finisher_.settle(state, request);
+  }
+  std::vector<double> times;
+
+ private:
+  NewtonFinishing finisher_;
+  int left_;
+};
+
+// Interrupted every few looks, through the state file; tries that fail included.
+TEST(NewtonFinishing, AnInterruptedRunGoesOnAsIfItHadNotBeen) {
+  Scene scene = scene_of(Finish::newton);
+  scene.equilibrium.force = 1e-9, scene.equilibrium.pressure = 1e-9;  // out of reach for the bare run
+  scene.finish.quiet_time = 2;
+  State straight = initial_state(scene, 6);
+  Reluctant finisher(3);
+  ASSERT_TRUE(run_stages(straight, {}, {}, &finisher).all_met());
+  ASSERT_EQ(finisher.times.size(), 4u);
+  for (std::size_t k = 0; k + 2 < finisher.times.size(); ++k)
+    EXPECT_GE(finisher.times[k + 2] - finisher.times[k + 1], finisher.times[k + 1] - finisher.times[k]);
+
+  State s = initial_state(scene, 6);
+  Reluctant resumed(3);
+  int interruptions = 0;
+  for (bool done = false; !done && interruptions < 1000;) {
+    int polls = 0;
+    RunHooks hooks;
+    hooks.interrupted = [&] { return ++polls > 3; };
+    done = !run_stages(s, {}, hooks, &resumed).interrupted;
+    if (!done) s = decode_state(encode_state(s), "memory").state, ++interruptions;
+  }
+  EXPECT_GT(interruptions, 5);
+  EXPECT_EQ(resumed.times, finisher.times);
+  EXPECT_EQ(physical_hash(s), physical_hash(straight));
+}
+
+}  // namespace
+}  // namespace isostat
