@@ -14,7 +14,7 @@ Pair larger(Pair a, Pair b) { return a > b ? a : b; }
 
 template <bool kRotation, bool kFreeCell>
 MotionTally advance(BodiesStore& bodies, std::size_t begin, std::size_t end, const MotionStep& step) {
-  const double dt = step.time_step, half = 0.5 * dt;
+  const double dt = step.time_step, ahead = step.prediction * dt;
   const Pair keep = {step.keep[0], step.keep[1]};
   const Pair scale = {step.scale[0], step.scale[1]}, drift = {dt * step.half_scale[0], dt * step.half_scale[1]};
   Pair fastest = {0, 0}, kinetic = {0, 0};
@@ -26,7 +26,7 @@ MotionTally advance(BodiesStore& bodies, std::size_t begin, std::size_t end, con
     Pair* const f = pairs(load);
     const Pair acceleration = f[0] * c.inverse_mass;
     const Pair velocity = (r[1] + dt * acceleration) * keep;
-    const Pair predicted = velocity + half * acceleration;
+    const Pair predicted = velocity + ahead * acceleration;
     if constexpr (kFreeCell) {
       r[0] = r[0] * scale + velocity * drift;
       kinetic += c.mass * (predicted * predicted);

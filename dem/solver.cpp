@@ -58,6 +58,7 @@ Solver::Solver(const State& state, const CellControl& control, SolverOptions opt
       team_(std::min(options.threads, NeighbourLists::chunk_count(state.packing.bodies.size()))),
       lists_(state.packing.bodies.size(), law_.attraction_range, law_.damping, law_.normal_stiffness) {
   load_bodies(state);
+  prediction_ = velocity_prediction(law_, smallest_mass_, dt_);
   motion_tallies_.resize(static_cast<std::size_t>(lists_.chunks()));
   if (state.memory.half_velocity.empty()) {
     compute_forces(0.0);
@@ -93,6 +94,7 @@ void Solver::step() {
 double Solver::advance_bodies() {
   MotionStep step;
   step.time_step = dt_;
+  step.prediction = prediction_;
   step.keep[0] = step.keep[1] = step.keep_spin = 1 - drag_ * dt_;
   double affine = 0;
   if (control_.moves()) {
@@ -232,6 +234,7 @@ void Solver::set_law(const LawParameters& law) {
   if (energies_) ledger_.injected -= elastic_energy();
   lists_.set_stiffness(law.normal_stiffness, bodies_);
   law_ = law;
+  prediction_ = velocity_prediction(law_, smallest_mass_, dt_);
   if (energies_) ledger_.injected += elastic_energy();
 }
 

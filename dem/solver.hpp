@@ -89,7 +89,8 @@ class Solver {
   std::vector<PairForceTally> force_tallies_;  // by group of a phase
   MotionTally motion_tally_;
   PairForceTally force_tally_;
-  double smallest_diameter_ = 0, largest_diameter_ = 0;
+  double smallest_diameter_ = 0, largest_diameter_ = 0, smallest_mass_ = 0;  // [a], [m]
+  double prediction_ = 0.5;                                                  // [dt]
   StepTimes times_;
 };
 

@@ -15,7 +15,7 @@ void Solver::load_bodies(const State& state) {
   const SolverMemory& m = state.memory;
   const bool resumed = !m.half_velocity.empty();
   bodies_.resize(b.size());
-  smallest_diameter_ = INFINITY;
+  smallest_diameter_ = smallest_mass_ = INFINITY;
   for (std::size_t k = 0; k < b.size(); ++k) {
     const Vec2 u = resumed ? m.half_velocity[k] : b.velocity[k];
     const double w = resumed ? m.half_spin[k] : b.spin[k];
@@ -27,6 +27,7 @@ void Solver::load_bodies(const State& state) {
     bodies_.constants[k] = {1 / b.mass[k], 1 / b.inertia[k], b.radius[k], b.mass[k]};
     bodies_.inertia[k] = b.inertia[k];
     smallest_diameter_ = std::min(smallest_diameter_, 2 * b.radius[k]);
+    smallest_mass_ = std::min(smallest_mass_, b.mass[k]);
     largest_diameter_ = std::max(largest_diameter_, 2 * b.radius[k]);
     if (resumed) {
       double* load = bodies_.load(k);

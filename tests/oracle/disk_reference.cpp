@@ -130,12 +130,15 @@ void DiskReference::step() {
       flow_now_[a] = -rate_now * reference_[a] / length_[a];
       if (control_.rate_coupling) keep[a] -= dt_ * flow_half_[a];
     }
+  double lightest = INFINITY;
+  for (const DiskMoment& d : disks_) lightest = std::min(lightest, d.mass);
+  const double ahead = dt_ * velocity_prediction(law_, lightest, dt_);
   const bool turns = law_.friction > 0 || law_.rolling_friction > 0;
   for (DiskMoment& d : disks_) {
     const double ax = d.fx / d.mass, ay = d.fy / d.mass, b = d.torque / d.inertia;
     d.u = (d.u + dt_ * ax) * keep[0], d.v = (d.v + dt_ * ay) * keep[1];
     if (turns) d.w = (d.w + dt_ * b) * (1 - drag_ * dt_);
-    d.p = d.u + 0.5 * dt_ * ax, d.q = d.v + 0.5 * dt_ * ay;
+    d.p = d.u + ahead * ax, d.q = d.v + ahead * ay;
     // The position in units of the cell moves by the peculiar velocity.
     d.x = length_[0] * (d.x / before[0] + dt_ * d.u / half[0]);
     d.y = length_[1] * (d.y / before[1] + dt_ * d.v / half[1]);
