@@ -26,9 +26,12 @@ State collide(const LawScene& law, const std::vector<Disk>& disks, double fracti
   return state;
 }
 
-// Disk 1 comes from the right with a gap such that the first step in contact begins at the given phase of a step.
+// Disk 1 comes from the right with a gap such that the first step in contact begins at the given phase of a step,
+// aimed such that its centre is then at (a, 0): the impact is the same for every step and phase.
 std::vector<Disk> approach(double dt, double normal_speed, double tangential_speed, double phase) {
-  return {{0, 0, 0.5, 0, 0, 0}, {1 + (3 + phase) * dt * normal_speed, 0, 0.5, -normal_speed, tangential_speed, 0}};
+  const double time = (3 + phase) * dt;  // to contact
+  return {{0, 0, 0.5, 0, 0, 0},
+          {1 + time * normal_speed, -time * tangential_speed, 0.5, -normal_speed, tangential_speed, 0}};
 }
 
 double collision_time(const LawScene& law) {
