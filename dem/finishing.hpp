@@ -17,7 +17,9 @@ struct FinishingRequest {
 };
 
 struct FinishingReport {
-  bool settled = false;             // false: the state was not touched
+  bool settled = false;             // the state is at rest in equilibrium
+  bool advanced = false;            // the state has drifted on, to just before a capture
+  bool capture = false;             // a pair is about to come within reach: for the dynamics to follow
   int steps = 0;                    // accepted implicit steps
   std::int64_t factorisations = 0;  // of the tangent stiffness
   double residual = 0;              // [F1] largest net force (moment / a, stress error a) at the end
@@ -29,7 +31,9 @@ class StaticSolver {
  public:
   virtual ~StaticSolver() = default;
   // From a state in which only creep is left to rest in equilibrium under the same law, spring histories included.
-  // If it cannot, the state stays as it is, bit for bit. `time` does not advance; the solver's memory is emptied, so
+  // Where two grains are about to come within reach of each other's attraction it stops, and leaves the moving packing
+  // as it is just before (advanced), to be marched through the event. If it can do neither, the state stays as it is,
+  // bit for bit. `time` does not advance; the solver's memory is emptied, so
   // that a Solver made from the state starts from packing and links; the energy that the solve takes out goes to
   // ledger.injected. The result depends neither on threads nor on the order in which the grains are stored.
   virtual FinishingReport settle(State& state, const FinishingRequest& request) = 0;

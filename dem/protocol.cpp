@@ -39,6 +39,8 @@ std::size_t loaded_contacts(const State& s) {
 
 constexpr double kCarried = 0.5;  // [-] of the imposed stress that may be missing when finishing begins
 constexpr double kRinging = 20;   // [-] times the kinetic tolerance: static solves follow what still moves
+constexpr double kCapture = 2;    // [T0] that a capture is followed before static solves are tried again
+const char* const kDrifting = "newton, floppy modes are drifting";
 constexpr double kWait = 0.1;     // [-] of the time since the start of the stage, after a static solve that failed
 constexpr double kNetwork = 0.9;  // [links a grain] a connected network has one at least; rattlers have none
 
@@ -107,6 +109,7 @@ void open_stage(State& s, const StageScene& stage) {
   s.progress.peak_stress = 0;
   s.progress.start_time = s.time;
   s.progress.drag_on = false;
+  if (s.certificate.finishing == kDrifting) s.certificate.finishing = "newton";
   s.progress.quiet_since = s.time;
   s.cell_motion.reference_length = s.packing.cell->length;
   s.cell_motion.strain_rate = {};
@@ -289,7 +292,7 @@ class StageRun {
     if (stage_.until == "time") return at_end();
     if (stage_.until == "strain") return strain() >= stage_.strain;
     if (stage_.until == "failure") return failed();
-    return !stiffening() && s_.certificate.equilibrated &&
+    return !stiffening() && s_.certificate.equilibrated && !drifting() &&
            (stage_.until != "aggregated" || count_clusters(s_.packing) == 1);
   }
   // What keeps the stage from its end.
@@ -297,6 +300,7 @@ class StageRun {
     if (stage_.until == "strain") return "the strain is " + std::to_string(strain());
     if (stage_.until == "failure") return "the peak stress has not dropped by stage.drop";
     if (stiffening()) return "K_N is still changing";
+    if (drifting()) return "floppy modes are still drifting";
     if (s_.certificate.equilibrated) return std::to_string(count_clusters(s_.packing)) + " clusters";
     const WorstCriterion worst = worst_criterion(s_.certificate);
     return worst.name + " is " + std::to_string(worst.ratio) + " times its tolerance";
@@ -324,19 +328,26 @@ class StageRun {
   // Only creep is left when there is a network (as many loaded contacts as grains), it carries most of the imposed
   // stress, and the kinetic criterion (static solves: kRinging times it) has been met for finish.quiet_time. To finish
   // earlier would stop the very motions that make the packing: when a compression begins nothing moves fast either.
+  // Static solves follow a ringing cell as well, whose stress passes through the imposed one again and again: for them
+  // the network need carry it only at the instant they begin.
   bool only_creep_is_left() {
     const Certificate& c = s_.certificate;
-    const double carried = std::max(kCarried * std::abs(largest_stress(s_.imposed_stress).value_or(0)),
-                                    10 * c.tolerance_pressure * c.force_scale);
+    const bool newton = s_.scene.finish.method == Finish::newton;
     const bool network =
         waits_for_equilibrium() && !stiffening() && (stage_.until != "aggregated" || count_clusters(s_.packing) == 1) &&
-        static_cast<double>(loaded_contacts(s_)) >= kNetwork * static_cast<double>(s_.packing.bodies.size()) &&
-        c.pressure_error * c.force_scale < carried;
+        static_cast<double>(loaded_contacts(s_)) >= kNetwork * static_cast<double>(s_.packing.bodies.size());
+    const bool carries =
+        c.pressure_error * c.force_scale < std::max(kCarried * std::abs(largest_stress(s_.imposed_stress).value_or(0)),
+                                                    10 * c.tolerance_pressure * c.force_scale);
+    const bool still = c.kinetic_energy_per_grain < (newton ? kRinging : 1.0) * c.tolerance_kinetic;
     double& since = s_.progress.quiet_since;
-    const double still = c.tolerance_kinetic * (s_.scene.finish.method == Finish::newton ? kRinging : 1.0);
-    if (!network || !(c.kinetic_energy_per_grain < still)) since = std::max(since, s_.time);
-    return s_.time - since >= s_.scene.finish.quiet_time;
+    if (!network || !still || !(carries || newton)) since = std::max(since, s_.time);
+    return carries && s_.time - since >= s_.scene.finish.quiet_time;
   }
+
+  // Static solves have silenced the vibrations, so that the kinetic criterion alone would end the stage; but floppy
+  // modes are on their way to a contact.
+  bool drifting() const { return s_.certificate.finishing == kDrifting; }
 
   void finish() {
     if (s_.scene.finish.method == Finish::drag && !s_.progress.drag_on) {
@@ -346,21 +357,27 @@ class StageRun {
     if (s_.scene.finish.method == Finish::newton && !driven(0) && !driven(1)) settle();
   }
 
-  // Static solves instead of waiting. If they cannot, nothing has changed: the run goes on and tries again after a
-  // time that grows with that of the stage.
+  // Static solves instead of waiting. When they meet a capture, the run goes through it and they take over again. If
+  // they cannot do anything, nothing has changed: the run goes on and tries again after a time that grows with that of
+  // the stage.
   void settle() {
     const CellControl control = cell_control(s_, stage_);
     const FinishingReport report = finisher_->settle(s_, {control.stress, control.inertia});
-    if (report.settled) {
+    if (report.settled || report.advanced) {
       times_before_ += solver_->times();
       solver_.emplace(s_, control, options_);
       solver_->snapshot(s_);
       s_.certificate.finishing = report.moving > 0
                                      ? "newton, a floppy mode still moves " + std::to_string(report.moving) + " grains"
                                      : "newton";
-      certify();
     }
-    s_.progress.quiet_since = s_.time + kWait * (s_.time - s_.progress.start_time);
+    if (report.capture && report.advanced)
+      s_.certificate.finishing = kDrifting;
+    else if (drifting() && !report.capture)
+      s_.certificate.finishing = "newton";  // no more: the criteria alone decide
+    certify();
+    s_.progress.quiet_since = report.capture ? s_.time + kCapture - s_.scene.finish.quiet_time
+                                             : s_.time + kWait * (s_.time - s_.progress.start_time);
   }
 
   State& s_;

@@ -382,6 +382,15 @@ void SettlingNetwork::accept(const std::vector<double>& step) {
   forces(std::vector<double>(size(), 0.0));
 }
 
+bool SettlingNetwork::captures() const {
+  if (!(law_.attraction > 0)) return false;
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    const double before = pairs_[k].gap, after = response_[k].frame.gap;
+    if ((before >= 0 && after < 0) || (before >= law_.attraction_range && after < law_.attraction_range)) return true;
+  }
+  return false;
+}
+
 SettlingNetwork::Balance SettlingNetwork::balance() const {
   Balance b;
   for (std::size_t r = 0; r < grains(); ++r) {

@@ -54,6 +54,8 @@ class SettlingNetwork {
   // In the kinetic criterion (evaluate_certificate): without cohesion a grain that touches nothing does not, unless
   // none touches.
   bool counts(std::size_t grain) const { return all_count_ || touching_[grain]; }
+  // Whether the trial step of the last forces() brings a cohesive pair within reach or into contact.
+  bool captures() const;
   double area() const { return length_[0] * length_[1]; }
 
   // Puts the accepted configuration and the given velocities into a state; its memory is emptied.

@@ -180,6 +180,34 @@ TEST(NewtonFinishing, SaysThatAFloppyModeIsStillMoving) {
   EXPECT_EQ(report.reason, "a floppy mode is still moving");
 }
 
+// Two grains fly towards each other: taken to where the attraction begins, with the momentum and energy they have.
+TEST(NewtonFinishing, StopsJustBeforeACapture) {
+  Scene scene = scene_of(Finish::none);
+  scene.grains.count = 2;
+  scene.stages[0].pressure = std::nullopt;
+  State s = initial_state(scene, 1);
+  Bodies<2>& b = s.packing.bodies;
+  s.packing.cell->length = {{8, 8}};
+  const double sum = b.radius[0] + b.radius[1], gap = 0.1, speed = 1e-3;
+  b.position = {{{3, 4}}, {{3 + sum + gap, 4}}};
+  b.velocity = {{{speed, 0}}, {{0, 0}}};
+  const FinishingReport report = NewtonFinishing().settle(s, {});
+  EXPECT_FALSE(report.settled);
+  EXPECT_TRUE(report.capture);
+  EXPECT_TRUE(report.advanced);
+  EXPECT_LT(report.steps, 60);
+  const double left = norm(b.position[1] - b.position[0]) - sum;
+  EXPECT_GE(left, s.law.attraction_range);
+  EXPECT_LT(left, s.law.attraction_range + 0.5 * speed * 1.01);  // half a T0 away at most
+  EXPECT_NEAR(b.velocity[0][0], speed, 1e-9 * speed);
+  EXPECT_NEAR(b.velocity[1][0], 0, 1e-9 * speed);
+  // At once if there is nothing to skip: then the state stays as it is.
+  const State before = s;
+  const FinishingReport again = NewtonFinishing().settle(s, {});
+  EXPECT_TRUE(again.capture);
+  EXPECT_TRUE(again.advanced || encode_state(s) == encode_state(before));
+}
+
 // The storage order is the solver's business: turned around, the same bits come out.
 TEST(NewtonFinishing, DoesNotSeeTheStorageOrder) {
   State a = ringing(scene_of(Finish::none), 4, 60);
