@@ -1,0 +1,74 @@
+#!/usr/bin/env python3
+"""The paper's numbers (data/papers/gilabert2007.csv) beside those of the studies in data/studies.
+
+    isostat study data/studies/NAME.toml -o out/NAME        for NAME in method1 aggregation agitation limits
+    tests/bench/paper_tables.py out docs/results            writes docs/results/gilabert2007.csv and prints it as markdown
+
+A row such as A+A-5600 pools the samples of both: the paper does not distinguish sizes. Errors are standard errors over
+samples. `gap` is (ours - paper) in units of the combined error, where the paper gives one.
+"""
+import csv
+import json
+import math
+import pathlib
+import sys
+
+COLUMNS = {"Phi": ("counts", "solid_fraction"), "z": ("counts", "z"), "F_perc": ("percolation", "F_perc"),
+           "mean_radius_weighted": ("pores", "mean_radius_weighted")}
+
+
+def values(folder, row, stage, quantity):
+    """The quantity of every certified sample of a row."""
+    section, key = COLUMNS.get(quantity, ("forces", quantity))
+    found = []
+    with open(folder / "runs.csv") as f:
+        runs = [r for r in csv.DictReader(f) if r["row"] == row and r["status"] == "ok"]
+    for run in runs:
+        stem = f"{row}.{int(run['seed']):04d}"
+        names = [f"{stem}.stage{stage}.analysis.json"] if stage else []
+        path = next((folder / n for n in names + [f"{stem}.analysis.json"] if (folder / n).exists()), None)
+        if path is None:
+            continue
+        report = json.loads(path.read_text())
+        report = report.get("report", report)
+        value = report.get(section, {}).get(key)
+        if value is not None:
+            found.append(float(value))
+    return found
+
+
+def statistics(x):
+    n = len(x)
+    if n == 0:
+        return math.nan, math.nan
+    mean = sum(x) / n
+    sd = math.sqrt(sum((v - mean) ** 2 for v in x) / (n - 1)) if n > 1 else math.nan
+    return mean, sd / math.sqrt(n) if n > 1 else math.nan
+
+
+def main():
+    out, target = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+    data = pathlib.Path(__file__).resolve().parents[2] / "data/papers/gilabert2007.csv"
+    lines = [["table", "case", "quantity", "ours", "error", "samples", "paper", "paper_error", "gap", "reference",
+              "difference"]]
+    for r in csv.DictReader(open(data)):
+        folder = out / r["study"]
+        if not (folder / "runs.csv").exists():
+            continue
+        x = [v for row in r["row"].split("+") for v in values(folder, row, r["stage"], r["quantity"])]
+        mean, error = statistics(x)
+        paper = float(r["paper"])
+        combined = math.hypot(error if error == error else 0, float(r["paper_error"] or 0))
+        gap = f"{(mean - paper) / combined:.1f}" if r["paper_error"] and combined > 0 else ""
+        difference = f"{mean - float(r['reference']):+.4f}" if r["reference"] else ""
+        lines.append([r["table"], r["case"], r["quantity"], f"{mean:.4g}", f"{error:.2g}", str(len(x)), r["paper"],
+                      r["paper_error"], gap, r["reference"], difference])
+    with open(target / "gilabert2007.csv", "w", newline="") as f:
+        csv.writer(f, lineterminator="\n").writerows(lines)
+    for k, line in enumerate(lines):
+        print("| " + " | ".join(line) + " |")
+        if k == 0:
+            print("|" + " --- |" * len(line))
+
+
+main()
