@@ -14,11 +14,13 @@ namespace isostat {
 struct FinishingRequest {
   ImposedStress stress;     // [F0/a] imposed in each direction; none: that edge keeps its length
   double cell_inertia = 1;  // M of Gilabert 2007, Eq. 3 [m]
+  double drag = 0;          // [1/T0] of a global drag on what still moves
+  bool drift_only = false;  // clusters still fly towards each other: on to the next capture, never to rest
 };
 
 struct FinishingReport {
   bool settled = false;             // the state is at rest in equilibrium
-  bool advanced = false;            // the state has drifted on, to just before a capture
+  bool advanced = false;            // the state has drifted on, at most to just before a capture
   bool capture = false;             // a pair is about to come within reach: for the dynamics to follow
   int steps = 0;                    // accepted implicit steps
   std::int64_t factorisations = 0;  // of the tangent stiffness

@@ -44,6 +44,25 @@ const char* const kDrifting = "newton, floppy modes are drifting";
 constexpr double kWait = 0.1;     // [-] of the time since the start of the stage, after a static solve that failed
 constexpr double kNetwork = 0.9;  // [links a grain] a connected network has one at least; rattlers have none
 
+// All bits of the result depend on all bits of x (the finalizer of SplitMix64).
+std::uint64_t mixed(std::uint64_t x) {
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+// A number for the set of contacts, whatever the order of grains and contacts.
+std::uint64_t contact_set(const State& s) {
+  std::uint64_t sum = 0;
+  for (const Link<2>& l : s.packing.links) {
+    if (l.kind == LinkKind::distant) continue;
+    const auto a = static_cast<std::uint64_t>(s.packing.bodies.id[static_cast<std::size_t>(l.i)]);
+    const auto b = static_cast<std::uint64_t>(s.packing.bodies.id[static_cast<std::size_t>(l.j)]);
+    sum += mixed(mixed(std::min(a, b) + 1) + std::max(a, b));
+  }
+  return sum;
+}
+
 // Maxwell velocities with the drift of the centre of mass removed and the rms of |v| equal to V0; spins zero.
 void agitate(State& s, double rms) {
   Bodies<2>& b = s.packing.bodies;
@@ -110,7 +129,7 @@ void open_stage(State& s, const StageScene& stage) {
   s.progress.start_time = s.time;
   s.progress.drag_on = false;
   if (s.certificate.finishing == kDrifting) s.certificate.finishing = "newton";
-  s.progress.quiet_since = s.time;
+  s.progress.quiet_since = s.progress.unchanged_since = s.time;
   s.cell_motion.reference_length = s.packing.cell->length;
   s.cell_motion.strain_rate = {};
   s.imposed_stress = imposed_stress(stage);
@@ -169,6 +188,7 @@ class StageRun {
       if (solver_->steps() % interval_ == 0 || at_end()) {
         look();
         if (over(outcome)) return true;
+        follow_contacts();
         if (only_creep_is_left()) finish();
         if (over(outcome)) return true;
       }
@@ -325,6 +345,16 @@ class StageRun {
     return false;
   }
 
+  void follow_contacts() {
+    const std::uint64_t now = contact_set(s_);
+    if (now != s_.progress.contact_set || stiffening())
+      s_.progress.contact_set = now, s_.progress.unchanged_since = s_.time;
+  }
+
+  bool still_flying() const { return stage_.until == "aggregated" && count_clusters(s_.packing) > 1; }
+  // What still moves has changed no contact for long.
+  bool rings() const { return s_.time - s_.progress.unchanged_since >= s_.scene.finish.unchanged_time; }
+
   // Only creep is left when there is a network (as many loaded contacts as grains), it carries most of the imposed
   // stress, and the kinetic criterion (static solves: kRinging times it) has been met for finish.quiet_time. To finish
   // earlier would stop the very motions that make the packing: when a compression begins nothing moves fast either.
@@ -334,7 +364,7 @@ class StageRun {
     const Certificate& c = s_.certificate;
     const bool newton = s_.scene.finish.method == Finish::newton;
     const bool network =
-        waits_for_equilibrium() && !stiffening() && (stage_.until != "aggregated" || count_clusters(s_.packing) == 1) &&
+        waits_for_equilibrium() && !stiffening() && (newton || !still_flying()) &&
         static_cast<double>(loaded_contacts(s_)) >= kNetwork * static_cast<double>(s_.packing.bodies.size());
     const bool carries =
         c.pressure_error * c.force_scale < std::max(kCarried * std::abs(largest_stress(s_.imposed_stress).value_or(0)),
@@ -342,7 +372,7 @@ class StageRun {
     const bool still = c.kinetic_energy_per_grain < (newton ? kRinging : 1.0) * c.tolerance_kinetic;
     double& since = s_.progress.quiet_since;
     if (!network || !still || !(carries || newton)) since = std::max(since, s_.time);
-    return carries && s_.time - since >= s_.scene.finish.quiet_time;
+    return carries && ((network && rings()) || s_.time - since >= s_.scene.finish.quiet_time);
   }
 
   // Static solves have silenced the vibrations, so that the kinetic criterion alone would end the stage; but floppy
@@ -362,7 +392,8 @@ class StageRun {
   // the stage.
   void settle() {
     const CellControl control = cell_control(s_, stage_);
-    const FinishingReport report = finisher_->settle(s_, {control.stress, control.inertia});
+    const FinishingReport report =
+        finisher_->settle(s_, {control.stress, control.inertia, rings() ? s_.scene.finish.drag : 0.0, still_flying()});
     if (report.settled || report.advanced) {
       times_before_ += solver_->times();
       solver_.emplace(s_, control, options_);
@@ -371,13 +402,15 @@ class StageRun {
                                      ? "newton, a floppy mode still moves " + std::to_string(report.moving) + " grains"
                                      : "newton";
     }
-    if (report.capture && report.advanced)
+    if (report.advanced)
       s_.certificate.finishing = kDrifting;
     else if (drifting() && !report.capture)
       s_.certificate.finishing = "newton";  // no more: the criteria alone decide
     certify();
-    s_.progress.quiet_since = report.capture ? s_.time + kCapture - s_.scene.finish.quiet_time
-                                             : s_.time + kWait * (s_.time - s_.progress.start_time);
+    const double later = s_.time + kWait * (s_.time - s_.progress.start_time);
+    s_.progress.quiet_since =
+        report.capture || report.advanced ? s_.time + kCapture - s_.scene.finish.quiet_time : later;
+    s_.progress.unchanged_since = std::max(s_.progress.unchanged_since, later - s_.scene.finish.unchanged_time);
   }
 
   State& s_;

@@ -64,9 +64,10 @@ enum class Finish { none, drag, newton };
 // [finish]: what ends a stage faster than the bare law does; "none" is the paper.
 struct FinishScene {
   Finish method = Finish::none;
-  double drag = 0.5;         // [1/T0] rate of the global drag -drag * m * v
-  double quiet_time = 10.0;  // [T0] begin when a network that carries the stress has met the kinetic criterion
-                             // for so long
+  double drag = 0.5;              // [1/T0] rate of the global drag -drag * m * v
+  double quiet_time = 10.0;       // [T0] begin when a network that carries the stress has met the kinetic criterion
+                                  // for so long
+  double unchanged_time = 100.0;  // [T0] or when its contacts have not changed for so long
   friend bool operator==(const FinishScene&, const FinishScene&) = default;
 };
 

@@ -278,6 +278,17 @@ std::vector<SceneKey> make_table() {
        "finish.method is not \"none\"",
        "Finishing starts when the kinetic criterion has been met for so long, in a network that carries the imposed "
        "stress."},
+      {"finish.unchanged_time",
+       in<&S::finish, &FinishScene::unchanged_time>,
+       "T0",
+       positive,
+       {},
+       "",
+       has_finishing,
+       "finish.method is not \"none\"",
+       "It also starts when the set of contacts has been the same for so long: what still moves rings, hardly damped, "
+       "and "
+       "changes nothing."},
 
       {"stage.pressure",
        in<&S::stages, &StageScene::pressure>,

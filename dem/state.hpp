@@ -50,14 +50,16 @@ struct EnergyLedger {
 
 // Where the run stands in the scene's stages.
 struct StageProgress {
-  std::int32_t stage = 0;      // index into Scene::stages; == size: finished
-  double start_time = 0;       // [T0] when the current stage began
-  bool started = false;        // the stage's opening actions (velocities, reference length) are done
-  bool drag_on = false;        // the finishing drag acts
-  double quiet_since = 0;      // [T0] since when only creep has been left, as seen by the checks
-  double start_stiffness = 0;  // K_N [F0/a] when the stage began
-  Vec2 start_stress{};         // [F0/a] static stress sigma_11, sigma_22 when the stage began
-  double peak_stress = 0;      // [F0/a] largest change of the stress of a driven direction so far
+  std::int32_t stage = 0;         // index into Scene::stages; == size: finished
+  double start_time = 0;          // [T0] when the current stage began
+  bool started = false;           // the stage's opening actions (velocities, reference length) are done
+  bool drag_on = false;           // the finishing drag acts
+  double quiet_since = 0;         // [T0] since when only creep has been left, as seen by the checks
+  std::uint64_t contact_set = 0;  // of the contacts at the last check, whatever their order
+  double unchanged_since = 0;     // [T0] since when it has been the same
+  double start_stiffness = 0;     // K_N [F0/a] when the stage began
+  Vec2 start_stress{};            // [F0/a] static stress sigma_11, sigma_22 when the stage began
+  double peak_stress = 0;         // [F0/a] largest change of the stress of a driven direction so far
 };
 
 // The three criteria of Gilabert 2007, Sec. II.D, evaluated from static forces.

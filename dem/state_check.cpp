@@ -96,8 +96,8 @@ Broken check_numbers(const State& s) {
     return StateFault{"cell", "a number that is not finite"};
   if (s.progress.stage < 0 || static_cast<std::size_t>(s.progress.stage) > s.scene.stages.size())
     return StateFault{"progress", "stage is not one of the scene's"};
-  if (!finite(s.progress.start_time) || !finite(s.progress.quiet_since) || !finite(s.progress.start_stiffness) ||
-      !finite(s.progress.start_stress) || !finite(s.progress.peak_stress))
+  if (!finite(s.progress.start_time) || !finite(s.progress.quiet_since) || !finite(s.progress.unchanged_since) ||
+      !finite(s.progress.start_stiffness) || !finite(s.progress.start_stress) || !finite(s.progress.peak_stress))
     return StateFault{"progress", "a number that is not finite"};
   return std::nullopt;
 }

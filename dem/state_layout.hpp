@@ -130,12 +130,15 @@ void transfer_law(Io& io, LawParameters& law) {
 
 template <class Io>
 void transfer_progress(Io& io, StageProgress& progress) {
-  auto& [stage, start_time, started, drag_on, quiet_since, start_stiffness, start_stress, peak_stress] = progress;
+  auto& [stage, start_time, started, drag_on, quiet_since, contact_set, unchanged_since, start_stiffness, start_stress,
+         peak_stress] = progress;
   io.value("/progress", "stage", stage);
   io.value("/progress", "start_time", start_time);
   io.value("/progress", "started", started);
   io.value("/progress", "drag_on", drag_on);
   io.value("/progress", "quiet_since", quiet_since);
+  io.value("/progress", "contact_set", contact_set);
+  io.value("/progress", "unchanged_since", unchanged_since);
   io.value("/progress", "start_stiffness", start_stiffness);
   io.value("/progress", "start_stress", start_stress);
   io.value("/progress", "peak_stress", peak_stress);

@@ -46,7 +46,7 @@ double largest(const Vector& v) {
 class Settling {
  public:
   Settling(State& state, const FinishingRequest& request, const std::function<void(const SettlingStep&)>& watch)
-      : s_(state), network_(state, request), watch_(watch) {
+      : s_(state), request_(request), network_(state, request), watch_(watch) {
     for (const auto& stress : request.stress)
       if (stress) scale_ = std::max(scale_, std::abs(*stress));
     scale_ = std::max(scale_, s_.law.attraction);
@@ -82,8 +82,13 @@ class Settling {
       ++report_.steps;
       if (dt < kWorthwhile && ++short_steps > kMostShort) return refuse("the steps stay too short to be worth it");
       if (kinetic() > allowed) return refuse("the packing sets kinetic energy free");
-      met = criteria_met(s_.law.attraction > 0 ? kDriftLeft : 1.0);  // without cohesion only rattlers drift
+      met = !request_.drift_only &&
+            criteria_met(s_.law.attraction > 0 ? kDriftLeft : 1.0);  // without cohesion only rattlers drift
       dt = next_step(dt, o.iterations);
+    }
+    if (request_.drift_only) {
+      keep(), report_.advanced = true;
+      return refuse("no grains came within reach of each other");
     }
     // As for the bare law, the criteria decide; a drift that never ends is named by polish() if a force drives it.
     if (!met && !criteria_met(1))
@@ -216,7 +221,7 @@ class Settling {
       return reject(o, dt, "two grains come within reach");
     }
     network_.accept(u);
-    for (std::size_t c = 0; c < u.size(); ++c) velocity_[c] = u[c] / dt;
+    for (std::size_t c = 0; c < u.size(); ++c) velocity_[c] = u[c] / (dt * (1 + request_.drag * dt));
     for (std::size_t g = 0; g < network_.grains(); ++g)  // a rattler rests until it is met
       if (!network_.counts(g)) std::fill_n(velocity_.begin() + static_cast<std::ptrdiff_t>(3 * g), 3, 0.0);
     o.accepted = true;
@@ -268,6 +273,7 @@ class Settling {
   }
 
   State& s_;
+  const FinishingRequest& request_;
   SettlingNetwork network_;
   const std::function<void(const SettlingStep&)>& watch_;
   RepeatedCholesky factor_;

@@ -181,6 +181,8 @@ void expect_equal(const State& a, const State& b) {
   EXPECT_SAME(progress.started);
   EXPECT_SAME(progress.drag_on);
   EXPECT_SAME(progress.quiet_since);
+  EXPECT_SAME(progress.contact_set);
+  EXPECT_SAME(progress.unchanged_since);
   EXPECT_SAME(progress.start_stiffness);
   EXPECT_SAME(progress.start_stress);
   EXPECT_SAME(progress.peak_stress);
