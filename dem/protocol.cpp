@@ -392,8 +392,8 @@ class StageRun {
   // the stage.
   void settle() {
     const CellControl control = cell_control(s_, stage_);
-    const FinishingReport report =
-        finisher_->settle(s_, {control.stress, control.inertia, rings() ? s_.scene.finish.drag : 0.0, still_flying()});
+    const FinishingReport report = finisher_->settle(
+        s_, {control.stress, control.inertia, rings() && !still_flying() ? s_.scene.finish.drag : 0.0, still_flying()});
     if (report.settled || report.advanced) {
       times_before_ += solver_->times();
       solver_.emplace(s_, control, options_);

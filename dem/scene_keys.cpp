@@ -41,7 +41,6 @@ bool random_start(const Scene& s) { return s.grains.file.empty(); }
 bool has_friction(const Scene& s) { return s.law.friction > 0; }
 bool has_rolling(const Scene& s) { return s.law.rolling; }
 bool has_attraction(const Scene& s) { return s.law.attraction > 0; }
-bool has_drag(const Scene& s) { return s.finish.method == Finish::drag; }
 bool has_finishing(const Scene& s) { return s.finish.method != Finish::none; }
 bool has_series(const Scene& s) { return !s.output.series.empty(); }
 
@@ -265,9 +264,9 @@ std::vector<SceneKey> make_table() {
        positive,
        {},
        "",
-       has_drag,
-       "finish.method = \"drag\"",
-       "Rate of the drag force -drag m v."},
+       has_finishing,
+       "finish.method is not \"none\"",
+       "Rate of the drag force -drag m v; with newton only of what rings without changing a contact."},
       {"finish.quiet_time",
        in<&S::finish, &FinishScene::quiet_time>,
        "T0",
