@@ -50,7 +50,7 @@ TEST_F(InfoCommand, PrintsTheContract) {
   EXPECT_EQ(j["scene"]["grains"]["count"], 1400);
   EXPECT_EQ(j["scene"]["law"]["friction"], 0.5);
   EXPECT_EQ(j["scene"]["law"]["rolling_friction"], nullptr);
-  EXPECT_EQ(j["scene"]["finish"]["method"], "drag");
+  EXPECT_EQ(j["scene"]["finish"]["method"], "newton");
   EXPECT_EQ(j["scene"]["stage"][0]["pressure"], 0.01);
   EXPECT_FALSE(j["scene"].contains("units"));
   EXPECT_EQ(j["law"]["rolling_friction"], 0.005);
