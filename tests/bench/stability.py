@@ -86,8 +86,9 @@ def long_run(program, folder):
                      '[[stage]]\nvelocity = 9.48\nuntil = "time"\ntime = 12000.0\n' % (folder / "long.csv"))
     subprocess.run([program, "pack", str(scene), "-o", str(folder / "long.h5")], check=True, capture_output=True)
     with h5py.File(folder / "long.h5") as f:
-        v = f["particles/grains/velocity/value"][()]
-        m = f["particles/grains/mass"][()]
+        v = f["particles/grains/velocity/value"][()].reshape(-1, 2)  # one frame
+        m = np.array(f["particles/grains/mass/value"] if isinstance(f["particles/grains/mass"], h5py.Group) else
+                     f["particles/grains/mass"]).ravel()
         steps = int(f["run"].attrs["step"])
     rows = list(csv.DictReader(open(folder / "long.csv")))
     total = [float(r["E_total"]) for r in rows]
