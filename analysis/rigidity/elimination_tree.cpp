@@ -7,6 +7,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "analysis/one_thread.hpp"
+
 namespace isostat {
 namespace {
 
@@ -51,6 +53,7 @@ std::vector<Int> order_nodes(Int nodes, Adjacency& a) {
   std::iota(node_at.begin(), node_at.end(), 0);
   if (nodes < 2 || a.node.empty()) return node_at;
   if (nodes >= kNestedDissectionFrom) {
+    keep_libraries_to_one_thread();
     idx_t options[METIS_NOPTIONS];
     METIS_SetDefaultOptions(options);
     options[METIS_OPTION_SEED] = 1;

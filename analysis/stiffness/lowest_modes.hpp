@@ -13,7 +13,7 @@ struct LowestModes {
 };
 
 // mass: diagonal of M, all positive; empty: the identity. `a` and `dependent` as in PseudoInverse.
-// Small systems (size <= kDenseSize) are solved densely.
+// Each block of coupled columns by itself; small blocks (size <= kDenseSize) are solved densely.
 LowestModes lowest_modes(const SymmetricMatrix& a, const std::vector<char>& dependent, std::vector<double> mass,
                          int count, bool definite, bool vectors);
 inline constexpr std::int32_t kDenseSize = 240;

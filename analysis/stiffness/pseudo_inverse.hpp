@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "analysis/stiffness/null_space.hpp"
 #include "analysis/stiffness/sparse_cholesky.hpp"
 
 namespace isostat {
@@ -12,7 +13,7 @@ namespace isostat {
 class PseudoInverse {
  public:
   // dependent: one flag a column, see dependent_columns(). Throws FactorisationFailed if the rest is singular after all
-  // (indefinite matrices only), and TooManyNullVectors above the memory bound.
+  // (indefinite matrices only).
   PseudoInverse(const SymmetricMatrix& a, const std::vector<char>& dependent, SparseCholesky::Form form);
 
   std::size_t size() const { return independent_.size(); }
@@ -20,31 +21,31 @@ class PseudoInverse {
   std::array<std::int64_t, 2> inertia() const { return factor_.inertia(); }
   std::int64_t factor_entries() const { return factor_.factor_entries(); }
 
-  // Some solution of A x = b with zeros at the dependent columns; b in the range of A. One step of refinement.
+  // Some solution of A x = b with zeros at the dependent columns; b in the range of A. Refined.
   std::vector<double> solve(const std::vector<double>& b) const;
 
   // Null vectors of A, one for each dependent column d: 1 at d, 0 at the other dependent columns.
   std::vector<double> null_vector(std::size_t dependent_column) const;
 
-  // Orthonormal basis of the null space, made on the first call. size * null_dimension numbers: at most
-  // kMostNullEntries of them, else std::length_error.
-  const std::vector<std::vector<double>>& null_basis() const;
-  static constexpr std::size_t kMostNullEntries = 50'000'000;
-
+  // The null space is made on the first call; std::length_error where it is too large to store (null_space.hpp).
   void project_out_null_space(std::vector<double>& x) const;
-  // A^+ x: project, solve, project.
-  std::vector<double> apply(std::vector<double> x) const;
+  // A^+ b: project, solve, project, refine.
+  std::vector<double> apply(std::vector<double> b) const;
 
  private:
   std::vector<double> gather(const std::vector<double>& x) const;
   std::vector<double> scatter(const std::vector<double>& x) const;
 
+  template <class Residual, class Solve>
+  void refine(std::vector<double>& x, const Residual& residual_at, const Solve& solve_for) const;
+
   const SymmetricMatrix matrix_;
   std::vector<char> independent_;
+  double norm_;
   std::vector<std::size_t> null_;  // dependent columns
   SymmetricMatrix inner_;
   SparseCholesky factor_;
-  mutable std::optional<std::vector<std::vector<double>>> basis_;
+  mutable std::optional<NullSpace> null_space_;
 };
 
 }  // namespace isostat

@@ -6,6 +6,8 @@
 #include <new>
 #include <string>
 
+#include "analysis/one_thread.hpp"
+
 namespace isostat {
 namespace {
 
@@ -49,6 +51,7 @@ struct SparseCholesky::Internals {
   cholmod_factor* factor = nullptr;
   std::int64_t size = 0;
   Internals() {
+    keep_libraries_to_one_thread();
     cholmod_start(&common);
     common.print = 0;
   }
