@@ -24,7 +24,7 @@ const std::vector<Section>& sections() {
       {"clusters", clusters_section, clusters_tables},
       {"stiffness", stiffness_section},
       {"moduli", moduli_section},
-      {"modes", modes_section, modes_tables},
+      {.name = "modes", .compute = modes_section, .tables = modes_tables, .only_when_named = true},
       {"pores", pores_section},
       {"scattering", scattering_section},
       {"dacf", dacf_section},
@@ -97,6 +97,7 @@ nlohmann::ordered_json analyze(const AnalysisInput& input, const AnalysisOptions
   report["units"] = units_of(input);
   for (const Section& section : sections()) {
     if (only.empty()) {
+      if (section.only_when_named) continue;
       try {
         report[section.name] = section.compute(input, options);
       } catch (const InputError&) {

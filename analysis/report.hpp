@@ -17,6 +17,7 @@ struct AnalysisOptions {
   std::optional<NetworkLaw> law;        // --law; none: the state's own law (a network: friction)
   bool cell_free = false;               // --cell free: add the diagonal strain dofs
   std::optional<double> gap_tolerance;  // --gap-tolerance [length of the input]
+  bool prestress = false;               // --prestress: modes of the full tangent, too
   double k_max = 0;                     // --k-max [1/length]; 0: the section's default
 };
 
@@ -49,13 +50,16 @@ struct Section {
   bool (*align)(std::vector<nlohmann::ordered_json>&) = nullptr;
   // What is computed from all inputs together and not by averaging; stands as "pooled" in the merged section.
   nlohmann::ordered_json (*pooled)(const std::vector<nlohmann::ordered_json>&) = nullptr;
+  // Costs many times all others together (30 s at 20000 grains): left out unless it is named.
+  bool only_when_named = false;
 };
 const std::vector<Section>& sections();  // in the order of the report
 
 // Names of `--only`, checked; empty text: none. Throws InputError naming the unknown ones.
 std::vector<std::string> parse_section_names(const std::string& comma_separated);
 
-// The report of one input. With no name every section that applies is computed; a named one that does not apply throws.
+// The report of one input. With no name every section that applies is computed but those that
+// must be named; a named one that does not apply throws.
 nlohmann::ordered_json analyze(const AnalysisInput& input, const AnalysisOptions& options,
                                const std::vector<std::string>& only);
 

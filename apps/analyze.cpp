@@ -1,4 +1,5 @@
 // isostat analyze INPUT... : what the report holds is analysis/report.hpp; here are only arguments and files.
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -22,6 +23,7 @@ AnalysisOptions options_of(const Arguments& arguments) {
                   : *law == "rolling"    ? NetworkLaw::rolling
                                          : NetworkLaw::friction;
   options.cell_free = arguments.choice("--cell", {"fixed", "free"}).value_or("fixed") == "free";
+  options.prestress = arguments.has("--prestress");
   options.gap_tolerance = arguments.number("--gap-tolerance");
   if (options.gap_tolerance && *options.gap_tolerance < 0)
     throw InputError("command line", 0, "--gap-tolerance", *arguments.value("--gap-tolerance"), "must not be negative");
@@ -75,7 +77,7 @@ class Analysis {
 int analyze_command(int argc, char** argv) {
   std::string names;
   for (const Section& s : sections()) names += (names.empty() ? "" : ",") + std::string(s.name);
-  const std::string only_help = "sections to compute, among " + names + "; default: all that apply";
+  const std::string only_help = "sections to compute, among " + names + "; default: all that apply, without modes";
   const Arguments arguments(
       argc, argv,
       {{"--only", "LIST", only_help},
@@ -84,6 +86,7 @@ int analyze_command(int argc, char** argv) {
        {"--law", "LAW", "friction, frictionless or rolling; default: the state's own (a network: friction)"},
        {"--cell", "fixed|free", "free adds the diagonal strains of the cell to the degrees of freedom"},
        {"--gap-tolerance", "LENGTH", "gap up to which grains touch (contacts of grain lists; closing of pores)"},
+       {"--prestress", "", "modes: those of the full tangent too, geometric term included (not symmetric)"},
        {"--k-max", "K", "largest wave number of the scattering intensity"}},
       {"INPUT...", "Measures what a packing is and what holds it up; several inputs make one ensemble."});
   if (arguments.inputs().empty())
@@ -93,6 +96,9 @@ int analyze_command(int argc, char** argv) {
   const std::vector<std::string> only = parse_section_names(only_text.value_or(""));
   if (only_text && only.empty())
     throw InputError("command line", 0, "--only", *only_text, "names no section: " + names);
+
+  if (options.prestress && std::find(only.begin(), only.end(), "modes") == only.end())
+    throw InputError("command line", 0, "--prestress", "", "belongs to the section modes: name it in --only");
 
   const auto json_path = arguments.value("--json"), csv_directory = arguments.value("--csv");
   Analysis analysis(options, only, csv_directory.has_value());

@@ -104,7 +104,7 @@ Plot series_plot(const DataTable& table) {
   return plot;
 }
 
-// --- bench: log-log, one curve a label ---
+// --- bench: log-log, shares with zeros linear; one curve a label ---
 
 bool is_time_column(const DataColumn& c) {
   return c.numeric() && starts_with_any(c.name, {"cpu_seconds", "seconds", "wall_seconds", "time_seconds", "cpu",
@@ -132,14 +132,24 @@ std::vector<std::string> row_labels(const DataTable& table) {
   return labels;
 }
 
+// Shares of a whole some of which are zero: a logarithmic axis would drop just the best of them.
+bool is_share_with_zeros(const DataColumn& c) {
+  bool zero = false;
+  for (double v : c.value) {
+    if (v < 0 || v > 1) return false;
+    zero = zero || v == 0;
+  }
+  return zero;
+}
+
 // Lines join the points of a label in order of x; the points carry the label in the legend.
-std::vector<Curve> labelled_curves(const DataTable& table, const DataColumn& x, const DataColumn& y) {
+std::vector<Curve> labelled_curves(const DataTable& table, const DataColumn& x, const DataColumn& y, bool zeros) {
   std::vector<std::string> order;
   std::map<std::string, std::vector<std::pair<double, double>>> by_label;
   const std::vector<std::string> labels = row_labels(table);
   for (std::size_t r = 0; r < table.rows(); ++r) {
     if (!by_label.contains(labels[r])) order.push_back(labels[r]);
-    if (x.value[r] > 0 && y.value[r] > 0)
+    if (x.value[r] > 0 && (y.value[r] > 0 || (zeros && y.value[r] == 0)))
       by_label[labels[r]].emplace_back(x.value[r], y.value[r]);
     else
       by_label[labels[r]];
@@ -178,9 +188,10 @@ Plot bench_plot(const DataTable& table) {
     for (const DataColumn* x : xs) {
       Chart chart;
       chart.x = {plain(x->name), true, {}, {}, false};
-      chart.y = {plain(y->name), true, {}, {}, false};
+      const bool linear = !is_error_column(*y) && is_share_with_zeros(*y);
+      chart.y = {plain(y->name), !linear, {}, {}, false};
       chart.height = ys.size() * xs.size() > 2 ? 150 : 230;
-      chart.curves = labelled_curves(table, *x, *y);
+      chart.curves = labelled_curves(table, *x, *y, linear);
       if (!chart.curves.empty()) plot.charts.push_back(std::move(chart));
     }
   if (plot.charts.empty()) refuse(table, "bench", "has no positive numbers for logarithmic axes");

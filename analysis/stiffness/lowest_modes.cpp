@@ -60,6 +60,24 @@ LowestModes dense_modes(const SymmetricMatrix& a, std::size_t null_dimension, in
   return modes;
 }
 
+// A unit vector u, u^T A u, and |A u - (u^T A u) u|.
+class RayleighPair {
+ public:
+  RayleighPair(const SymmetricMatrix& a, const Eigen::VectorXd& u) : u_(u.normalized()) {
+    const std::vector<double> product = a.multiply(vector());
+    const Eigen::Map<const Eigen::VectorXd> au(product.data(), u_.size());
+    value_ = u_.dot(au);
+    residual_ = (au - value_ * u_).norm();
+  }
+  double value() const { return value_; }
+  double residual() const { return residual_; }
+  std::vector<double> vector() const { return {u_.data(), u_.data() + u_.size()}; }
+
+ private:
+  Eigen::VectorXd u_;
+  double value_ = 0, residual_ = 0;
+};
+
 LowestModes lanczos_modes(const SymmetricMatrix& a, const std::vector<char>& dependent, std::size_t rank, int count,
                           bool definite, bool vectors) {
   const PseudoInverse inverse(a, dependent,
@@ -80,12 +98,13 @@ LowestModes lanczos_modes(const SymmetricMatrix& a, const std::vector<char>& dep
   const Eigen::MatrixXd eigenvectors = solver.eigenvectors(found);
   const double size_of_a = *std::max_element(a.value.begin(), a.value.end());
   for (Eigen::Index k = 0; k < values.size(); ++k) {
-    const auto& u = eigenvectors.col(k);
-    std::vector<double> mode(u.data(), u.data() + u.size());
-    const std::vector<double> au = a.multiply(mode);
-    const double rayleigh = std::inner_product(mode.begin(), mode.end(), au.begin(), 0.0) / u.squaredNorm();
-    modes.value.push_back(std::abs(rayleigh) > kRayleighFrom * size_of_a ? rayleigh : 1 / values[k]);
-    if (vectors) modes.vector.push_back(std::move(mode));
+    RayleighPair pair(a, eigenvectors.col(k));
+    // Where independent columns are nearly dependent, N is off and u has a share of the null space, which A removes.
+    const std::vector<double> product = a.multiply(inverse.apply(pair.vector()));
+    const RayleighPair polished(a, Eigen::Map<const Eigen::VectorXd>(product.data(), a.size));
+    if (polished.residual() < pair.residual()) pair = polished;
+    modes.value.push_back(std::abs(pair.value()) > kRayleighFrom * size_of_a ? pair.value() : 1 / values[k]);
+    if (vectors) modes.vector.push_back(pair.vector());
   }
   return modes;
 }

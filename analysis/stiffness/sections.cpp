@@ -8,6 +8,7 @@
 #include "analysis/rigidity/independent_columns.hpp"
 #include "analysis/rigidity/sections.hpp"
 #include "analysis/stiffness/moduli.hpp"
+#include "analysis/stiffness/prestressed_modes.hpp"
 #include "analysis/stiffness/pseudo_inverse.hpp"
 #include "analysis/stiffness/stiffness_matrix.hpp"
 #include "analysis/stiffness/vibration.hpp"
@@ -130,6 +131,20 @@ Json modes_section(const AnalysisInput& input, const AnalysisOptions& options) {
     section["reason"] = e.what();
   } catch (const FactorisationFailed& e) {
     section["reason"] = e.what();
+  }
+  if (!options.prestress) return section;
+  if (!read_forces(input).known) refuse_section(input, "modes", "--prestress needs the forces of the links");
+  try {
+    const PrestressedModes modes = prestressed_modes(packing, network_law, law, kReportedModes);
+    Json omega_squared = Json::array();
+    for (const auto& v : modes.omega_squared) omega_squared.push_back({v.real(), v.imag()});
+    section["with_geometric_term"] = {
+        {"omega_squared", omega_squared}, {"residual", modes.residual},
+        {"pieces", modes.pieces},         {"unlinked_dofs", modes.unlinked_dofs},
+        {"shift", modes.shift},           {"antisymmetric_part", modes.antisymmetric_part},
+        {"converged", modes.converged}};
+  } catch (const FactorisationFailed& e) {
+    section["with_geometric_term"] = {{"omega_squared", nullptr}, {"failed", e.what()}};
   }
   return section;
 }

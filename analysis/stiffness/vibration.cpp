@@ -14,6 +14,18 @@ LawParameters law_of(const AnalysisInput& input) {
   return input.state && input.state->law.normal_stiffness > 0 ? input.state->law : default_network_law();
 }
 
+std::vector<double> dof_masses(const Packing<2>& packing, NetworkLaw network_law) {
+  std::vector<double> mass;
+  for (std::size_t i = 0; i < packing.bodies.size(); ++i) {
+    if (!(packing.bodies.mass[i] > 0) || !(packing.bodies.inertia[i] > 0))
+      throw InputError("bodies", 0, "mass", std::to_string(packing.bodies.mass[i]),
+                       "vibrations need positive masses and inertias");
+    mass.insert(mass.end(), {packing.bodies.mass[i], packing.bodies.mass[i]});
+    if (network_law != NetworkLaw::frictionless) mass.push_back(packing.bodies.inertia[i]);
+  }
+  return mass;
+}
+
 VibrationModes vibration_modes(const Packing<2>& packing, NetworkLaw network_law, const LawParameters& law, int count,
                                bool displacements) {
   const RigidityMatrix g = rigidity_matrix(packing, network_law, false);
@@ -22,15 +34,7 @@ VibrationModes vibration_modes(const Packing<2>& packing, NetworkLaw network_law
 
   VibrationModes modes;
   modes.per_body = g.layout.per_body;
-  std::vector<double> mass;
-  for (std::size_t i = 0; i < packing.bodies.size(); ++i) {
-    if (!(packing.bodies.mass[i] > 0) || !(packing.bodies.inertia[i] > 0))
-      throw InputError("bodies", 0, "mass", std::to_string(packing.bodies.mass[i]),
-                       "vibrations need positive masses and inertias");
-    mass.push_back(packing.bodies.mass[i]);
-    mass.push_back(packing.bodies.mass[i]);
-    if (modes.per_body == 3) mass.push_back(packing.bodies.inertia[i]);
-  }
+  std::vector<double> mass = dof_masses(packing, network_law);
   modes.zero_modes = std::count(dependent.begin(), dependent.end(), 1);
   const bool definite = std::all_of(k.begin(), k.end(), [](double v) { return v > 0; });
   LowestModes lowest =

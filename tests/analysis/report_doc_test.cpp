@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "analysis/load_input.hpp"
 #include "analysis/report.hpp"
 #include "dem/input_error.hpp"
 #include "tests/oracle/network_oracle.hpp"
@@ -85,6 +86,17 @@ TEST(Report, ComputesOnlyWhatIsAskedFor) {
   EXPECT_TRUE(report.contains("stress"));
   EXPECT_FALSE(report.contains("counts"));
   EXPECT_EQ(report["inputs"], Json::array({"test"}));
+}
+
+TEST(Report, LeavesOutCostlySectionsUnlessNamed) {
+  const AnalysisInput input = load_input(std::string(ISOSTAT_DATA) + "/clusters/triangle.net", {});
+  const Json report = analyze(input, {}, {});
+  EXPECT_TRUE(report.contains("stiffness"));
+  EXPECT_FALSE(report.contains("modes"));
+  EXPECT_EQ(analyze(input, {}, {"modes"})["modes"]["omega"].size(), 6u);
+  AnalysisOptions prestress;
+  prestress.prestress = true;
+  EXPECT_THROW(analyze(input, prestress, {"modes"}), InputError);  // a network has no forces
 }
 
 TEST(Report, SkipsWhatDoesNotApplyUnlessNamed) {

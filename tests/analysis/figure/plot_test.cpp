@@ -210,6 +210,16 @@ TEST(BenchPlot, ErrorAgainstStepAndTimeByLabel) {
   EXPECT_THROW(table_plot("bench").make(parse_table("error,b\n1,2\n", "b.csv")), InputError);
 }
 
+// A method that is never wrong stays in the picture.
+TEST(BenchPlot, SharesWithZerosAreLinear) {
+  const Plot plot = table_plot("bench").make(
+      parse_table("N,method,wrong,seconds\n10,a,0,1\n20,a,0,2\n10,b,0.5,3\n20,b,1,4\n", "b.csv"));
+  ASSERT_EQ(plot.charts.size(), 2u);
+  EXPECT_FALSE(plot.charts[0].y.log);
+  EXPECT_EQ(plot.charts[0].curves[1].y, (std::vector{0.0, 0.0}));
+  EXPECT_TRUE(plot.charts[1].y.log);
+}
+
 class PlotFiles : public ::testing::Test {
  protected:
   PlotFiles() {

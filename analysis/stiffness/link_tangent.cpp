@@ -1,0 +1,63 @@
+#include "analysis/stiffness/link_tangent.hpp"
+
+#include "analysis/stiffness/stiffness_matrix.hpp"
+
+namespace isostat {
+
+LinkTangent::Response LinkTangent::operator()(double dx, double dy, double spin_i, double spin_j) const {
+  const auto v = link_velocity(f, dx, dy, spin_i, spin_j);
+  const double dn = -k_normal * v.normal, dt = -k_tangential * v.tangential, dm = -k_moment * v.rolling;
+  const double tx = -f.ny, ty = f.nx;
+  const double turn = (tx * dx + ty * dy) / f.distance;  // of the frame
+  const double stretch = v.normal / (radius_i + radius_j);
+  return {dn * f.nx + dt * tx + turn * (normal * tx - tangential * f.nx),
+          dn * f.ny + dt * ty + turn * (normal * ty - tangential * f.ny),
+          -dt * f.lever_i - tangential * stretch * radius_i - dm,
+          -dt * f.lever_j - tangential * stretch * radius_j + dm};
+}
+
+LinkTangent::Response LinkTangent::to_dof(int d) const {
+  const double sign = d < 3 ? -1 : 1;
+  return (*this)(d % 3 == 0 ? sign : 0, d % 3 == 1 ? sign : 0, d == 2, d == 5);
+}
+
+std::vector<LinkTangent> link_tangents(const Packing<2>& packing, NetworkLaw network_law, const LawParameters& law) {
+  std::vector<LinkTangent> tangents;
+  tangents.reserve(packing.links.size());
+  for (const Link<2>& link : packing.links) {
+    const auto i = static_cast<std::size_t>(link.i), j = static_cast<std::size_t>(link.j);
+    Vec2 r = packing.bodies.position[j] - packing.bodies.position[i];
+    if (packing.cell) r += packing.cell->offset(link.shift);
+    const double ri = packing.bodies.radius[i], rj = packing.bodies.radius[j];
+    tangents.push_back(
+        {link_frame(r[0], r[1], ri, rj), r, ri, rj, link.normal_force, link.tangential_force, link.moment});
+  }
+  const RigidityMatrix g = rigidity_matrix(packing, network_law, false);
+  const std::vector<double> stiffness = row_stiffness(packing, g, law);
+  for (std::size_t r = 0; r < stiffness.size(); ++r) {
+    LinkTangent& of = tangents[static_cast<std::size_t>(g.link_of_row[r])];
+    (g.component[r] == 0 ? of.k_normal : g.component[r] == 1 ? of.k_tangential : of.k_moment) = stiffness[r];
+  }
+  return tangents;
+}
+
+UnsymmetricMatrix tangent_stiffness(const Packing<2>& packing, NetworkLaw network_law, const LawParameters& law) {
+  const DofLayout layout = dof_layout(packing.bodies.size(), network_law, false);
+  const std::vector<LinkTangent> tangents = link_tangents(packing, network_law, law);
+  Triplets entries;
+  for (std::size_t l = 0; l < tangents.size(); ++l) {
+    const auto dof = [&](int d) {  // -1: no spin
+      const std::int32_t body = d < 3 ? packing.links[l].i : packing.links[l].j;
+      return d % 3 < layout.per_body ? body * static_cast<std::int32_t>(layout.per_body) + d % 3 : -1;
+    };
+    for (int c = 0; c < 6; ++c) {
+      if (dof(c) < 0) continue;
+      const std::array<double, 6> column = LinkTangent::resistance(tangents[l].to_dof(c));
+      for (int r = 0; r < 6; ++r)
+        if (dof(r) >= 0) entries.add(dof(r), dof(c), column[static_cast<std::size_t>(r)]);
+    }
+  }
+  return assemble(static_cast<std::int32_t>(layout.size()), entries);
+}
+
+}  // namespace isostat
