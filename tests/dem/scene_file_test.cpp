@@ -272,7 +272,7 @@ TEST(Scales, OfTheShippedScene) {
   const Scene scene = read_scene(ISOSTAT_DATA "/scenes/disks-method1.toml");
   const LawParameters law = resolve(scene.law);
   const double dt = time_step(law, scene.step.fraction, 1.0);
-  EXPECT_DOUBLE_EQ(dt, 0.06 * std::sqrt(1e-5));
+  EXPECT_DOUBLE_EQ(dt, 0.12 * std::sqrt(1e-5));
   const Scales s = scales(law, 0.01, 0.5, dt);
   EXPECT_DOUBLE_EQ(*s.kappa, 1e5);
   EXPECT_DOUBLE_EQ(*s.reduced_pressure, 0.01);
