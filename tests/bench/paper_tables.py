@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
 """The paper's numbers (data/papers/gilabert2007.csv) beside those of the studies in data/studies.
 
-    isostat study data/studies/NAME.toml -o out/NAME        for NAME in method1 aggregation agitation limits
-    tests/bench/paper_tables.py out docs/results            writes docs/results/gilabert2007.csv and prints it as markdown
+    isostat study data/studies/NAME.toml -o out/NAME        for NAME in method1 aggregation agitation limits choices
+    tests/bench/paper_tables.py out docs/results
+
+writes docs/results/gilabert2007.csv and prints it as markdown, study_choices.csv (means of the study of that name), and
+runs_NAME.csv, every run with its end, CPU time and hash.
 
 A row such as A+A-5600 pools the samples of both: the paper does not distinguish sizes. Errors are standard errors over
 samples. `gap` is (ours - paper) in units of the combined error, where the paper gives one.
@@ -46,6 +49,26 @@ def statistics(x):
     return mean, sd / math.sqrt(n) if n > 1 else math.nan
 
 
+def write(path, rows):
+    with open(path, "w", newline="") as f:
+        csv.writer(f, lineterminator="\n").writerows(rows)
+
+
+def write_choices(folder, target):
+    """Means of the rows of data/studies/choices.toml, by stage."""
+    names = ["counts.solid_fraction", "counts.solid_fraction_se", "counts.z", "counts.z_se"]
+    rows = [["row", "stage", "Phi", "Phi_se", "z", "z_se", "samples"]]
+    for r in csv.DictReader(open(folder / "study.csv")):
+        rows.append([r["row"], r["stage"], *(f"{float(r[n] or 'nan'):.6g}" for n in names), r["n"]])
+    write(target / "study_choices.csv", rows)
+
+
+def write_runs(folder, target):
+    rows = [[v for k, v in r.items() if k != "reason"] for r in csv.DictReader(open(folder / "runs.csv"))]
+    header = [k for k in next(csv.reader(open(folder / "runs.csv"))) if k != "reason"]
+    write(target / f"runs_{folder.name}.csv", [header, *rows])
+
+
 def main():
     out, target = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
     data = pathlib.Path(__file__).resolve().parents[2] / "data/papers/gilabert2007.csv"
@@ -63,8 +86,11 @@ def main():
         difference = f"{mean - float(r['reference']):+.4f}" if r["reference"] else ""
         lines.append([r["table"], r["case"], r["quantity"], f"{mean:.4g}", f"{error:.2g}", str(len(x)), r["paper"],
                       r["paper_error"], gap, r["reference"], difference])
-    with open(target / "gilabert2007.csv", "w", newline="") as f:
-        csv.writer(f, lineterminator="\n").writerows(lines)
+    write(target / "gilabert2007.csv", lines)
+    for folder in sorted(p.parent for p in out.glob("*/runs.csv")):
+        write_runs(folder, target)
+    if (out / "choices/study.csv").exists():
+        write_choices(out / "choices", target)
     for k, line in enumerate(lines):
         print("| " + " | ".join(line) + " |")
         if k == 0:
