@@ -1,17 +1,14 @@
 #include "analysis/finishing/gmres.hpp"
 
 #include <cmath>
+#include <numeric>
 
 namespace isostat {
 namespace {
 
 using Vector = std::vector<double>;
 
-double inner(const Vector& a, const Vector& b) {
-  double s = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) s += a[k] * b[k];
-  return s;
-}
+double inner(const Vector& a, const Vector& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); }
 void add(Vector& a, double factor, const Vector& b) {
   for (std::size_t k = 0; k < a.size(); ++k) a[k] += factor * b[k];
 }

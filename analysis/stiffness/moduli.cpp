@@ -1,5 +1,7 @@
 #include "analysis/stiffness/moduli.hpp"
 
+#include <numeric>
+
 #include "analysis/rigidity/independent_columns.hpp"
 #include "analysis/stiffness/pseudo_inverse.hpp"
 #include "analysis/stiffness/stiffness_matrix.hpp"
@@ -28,9 +30,7 @@ std::array<std::vector<double>, 3> strain_velocities(const Packing<2>& packing, 
 }
 
 double dot(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
 }  // namespace

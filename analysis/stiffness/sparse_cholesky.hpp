@@ -1,10 +1,11 @@
-// Sparse symmetric matrices and their factorisation by CHOLMOD, whose types stay in the .cpp.
+// Sparse symmetric matrices and their factorisation.
 #pragma once
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <stdexcept>
 #include <vector>
+
+#include "analysis/stiffness/cholmod_factor.hpp"
 
 namespace isostat {
 
@@ -32,18 +33,15 @@ class SparseCholesky {
   };
   // Throws FactorisationFailed naming the column; std::bad_alloc out of memory.
   SparseCholesky(const SymmetricMatrix& a, Form form);
-  ~SparseCholesky();
-  SparseCholesky(SparseCholesky&&) noexcept;
-  SparseCholesky& operator=(SparseCholesky&&) noexcept;
 
-  std::vector<double> solve(const std::vector<double>& b) const;
-  std::array<std::int64_t, 2> inertia() const;  // negative and positive pivots
-  double pivot_ratio() const;                   // smallest over largest |pivot|: how far the signs are from doubt
-  std::int64_t factor_entries() const;          // nonzeros of L
+  std::vector<double> solve(const std::vector<double>& b) const { return factor_.solve(b); }
+  std::array<std::int64_t, 2> inertia() const { return factor_.inertia(); }  // negative and positive pivots
+  // Smallest over largest |pivot|: how far the signs are from doubt.
+  double pivot_ratio() const { return factor_.pivot_ratio(); }
+  std::int64_t factor_entries() const { return factor_.entries(); }  // nonzeros of L
 
  private:
-  struct Internals;
-  std::unique_ptr<Internals> internals_;
+  CholmodFactor factor_;
 };
 
 }  // namespace isostat
