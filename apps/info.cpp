@@ -39,7 +39,7 @@ Json scene_json(Scene scene) {
   json["stage"] = Json::array();
   for (std::size_t k = 0; k < scene.stages.size(); ++k) json["stage"].push_back(Json::object());
   for (const SceneKey& key : scene_keys()) {
-    if ((key.applies && !key.applies(scene)) || (belongs_to_units(key) && !scene.units)) continue;
+    if (!applies(key, scene)) continue;
     const std::size_t dot = key.name.find('.');
     const std::string table(key.name.substr(0, dot == std::string_view::npos ? 0 : dot));
     const std::string leaf(key.name.substr(dot == std::string_view::npos ? 0 : dot + 1));

@@ -12,7 +12,7 @@
 #include "dem/input_error.hpp"
 #include "dem/run_error.hpp"
 #include "dem/sample.hpp"
-#include "dem/scene_keys.hpp"
+#include "dem/scene_text.hpp"
 #include "dem/series.hpp"
 #include "dem/state_file.hpp"
 

@@ -81,9 +81,11 @@ class StageRun {
       if (solver_->steps() % interval_ == 0 || at_end()) {
         look();
         if (over(outcome)) return true;
-        follow_contacts();
-        if (only_creep_is_left()) finish();
-        if (over(outcome)) return true;
+        if (s_.scene.finish.method != Finish::none) {
+          follow_contacts();
+          if (only_creep_is_left()) finish();
+          if (over(outcome)) return true;
+        }
       }
       if (hooks_.interrupted && hooks_.interrupted()) {
         solver_->snapshot(s_);

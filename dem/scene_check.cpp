@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "dem/scales.hpp"
-#include "dem/scene_keys.hpp"
+#include "dem/scene_text.hpp"
 
 namespace isostat {
 namespace {

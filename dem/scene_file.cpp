@@ -11,6 +11,7 @@
 #include "dem/input_error.hpp"
 #include "dem/scene_check.hpp"
 #include "dem/scene_keys.hpp"
+#include "dem/scene_text.hpp"
 #include "dem/suggestion.hpp"
 
 namespace isostat {
@@ -207,8 +208,7 @@ class Parser {
 
   void assign_all(Scene& scene, bool conditional) {
     for (const SceneKey& key : scene_keys()) {
-      if ((key.applies != nullptr) != conditional || (key.applies && !key.applies(scene))) continue;
-      if (belongs_to_units(key) && !scene.units) continue;
+      if ((key.condition.holds != nullptr) != conditional || !applies(key, scene)) continue;
       const std::size_t copies = belongs_to_stage(key) ? stages_ : 1;
       for (std::size_t stage = 0; stage < copies; ++stage)
         if (const Given* g = find(full_name(key, stage)); g && !assign(key, key.field(scene, stage), *g->node))

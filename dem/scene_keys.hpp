@@ -27,15 +27,19 @@ struct SceneRange {
   }
 };
 
+struct SceneCondition {
+  bool (*holds)(const Scene& scene) = nullptr;  // nullptr: always
+  std::string_view in_words{};
+};
+
 struct SceneKey {
   std::string_view name;                                 // dotted; keys of a [[stage]] are `stage.KEY`
   SceneField (*field)(Scene& scene, std::size_t stage);  // stage: which [[stage]], for its keys
-  std::string_view unit;                                 // empty: not a quantity
-  SceneRange range;                                      // numbers, and each element of a list
-  std::vector<std::string_view> choices;                 // texts: what is allowed; empty: anything
-  std::string_view absent;                               // what leaving out an optional key means
-  bool (*applies)(const Scene& scene);                   // nullptr: always; false: the key is ignored
-  std::string_view applies_when;                         // the same in words
+  std::string_view unit{};                               // empty: not a quantity
+  SceneRange range{};                                    // numbers, and each element of a list
+  std::vector<std::string_view> choices{};               // texts: what is allowed; empty: anything
+  std::string_view absent{};                             // what leaving out an optional key means
+  SceneCondition condition{};                            // where it does not hold the key is ignored
   std::string_view meaning;                              // one sentence
 };
 
@@ -46,19 +50,10 @@ bool belongs_to_units(const SceneKey& key);
 // The name with its stage: `stage.pressure` of stage 0 is `stage.0.pressure`.
 std::string full_name(const SceneKey& key, std::size_t stage);
 
-// The value as a TOML literal that parses back to the same value; empty for an absent optional.
-std::string value_text(const SceneKey& key, const Scene& scene, std::size_t stage);
-std::string real_text(double value);              // shortest digits that parse back, always with a point or exponent
-std::string quoted_text(std::string_view value);  // a TOML basic string
+std::string table_of(const SceneKey& key);      // empty at top level
+std::string_view leaf_of(const SceneKey& key);  // the name within its table
 
-// Type and allowed values in words: "real > 0".
-std::string rule_text(const SceneKey& key);
-
-// The page docs/scene.md, generated.
-std::string scene_documentation();
-
-// Every key with its value, as a scene file that read_scene turns into an equal Scene. Keys that do not apply are left
-// out, and so are absent optional ones.
-std::string scene_to_toml(const Scene& scene);
+// False: the key is ignored in this scene.
+bool applies(const SceneKey& key, const Scene& scene);
 
 }  // namespace isostat

@@ -11,7 +11,7 @@
 #include "dem/input_error.hpp"
 #include "dem/physical_hash.hpp"
 #include "dem/scene_file.hpp"
-#include "dem/scene_keys.hpp"
+#include "dem/scene_text.hpp"
 #include "dem/state_check.hpp"
 #include "dem/state_layout.hpp"
 #include "dem/state_seal.hpp"

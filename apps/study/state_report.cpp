@@ -8,7 +8,7 @@
 #include "analysis/version.hpp"
 #include "apps/study/state_digest.hpp"
 #include "dem/atomic_file.hpp"
-#include "dem/scene_keys.hpp"
+#include "dem/scene_text.hpp"
 
 namespace isostat {
 namespace {

@@ -5,16 +5,13 @@
 #include <filesystem>
 
 #include "dem/scene_keys.hpp"
+#include "dem/scene_text.hpp"
 
 namespace isostat {
 namespace {
 
 std::string stage_suffix(std::optional<std::size_t> stage) {
   return stage ? ".stage" + std::to_string(*stage) : std::string();
-}
-
-bool in_force(const SceneKey& key, const Scene& scene) {
-  return !(key.applies && !key.applies(scene)) && !(belongs_to_units(key) && !scene.units);
 }
 
 std::string unquoted(std::string text) {
@@ -62,7 +59,7 @@ std::string value_of(const ParameterSet& set, const std::string& name) {
     const std::size_t copies = belongs_to_stage(key) ? set.scene.stages.size() : 1;
     for (std::size_t stage = 0; stage < copies; ++stage) {
       if (full_name(key, stage) != name) continue;
-      if (!in_force(key, set.scene)) return "";
+      if (!applies(key, set.scene)) return "";
       if (belongs_to_stage(key) && given != set.settings.end()) return unquoted(given->second);
       return unquoted(value_text(key, set.scene, stage));
     }
@@ -75,8 +72,8 @@ std::string first_difference(const Scene& there, const Scene& here) {
   for (const SceneKey& key : scene_keys()) {
     const std::size_t copies = belongs_to_stage(key) ? stages : 1;
     for (std::size_t stage = 0; stage < copies; ++stage) {
-      const std::string old_value = in_force(key, there) ? value_text(key, there, stage) : "";
-      const std::string new_value = in_force(key, here) ? value_text(key, here, stage) : "";
+      const std::string old_value = applies(key, there) ? value_text(key, there, stage) : "";
+      const std::string new_value = applies(key, here) ? value_text(key, here, stage) : "";
       if (old_value == new_value) continue;
       const auto shown = [](const std::string& text) { return text.empty() ? std::string("absent") : text; };
       return full_name(key, stage) + " = " + shown(old_value) + ", not " + shown(new_value);

@@ -15,6 +15,7 @@
 #include "dem/input_error.hpp"
 #include "dem/scene_file.hpp"
 #include "dem/scene_keys.hpp"
+#include "dem/scene_text.hpp"
 #include "dem/suggestion.hpp"
 
 namespace isostat {

@@ -16,7 +16,6 @@ const std::string kClusters = ISOSTAT_DATA "/clusters/";
 
 class AnalyzeConvert : public Program {
  protected:
-  void write(const std::string& name, const std::string& text) const { std::ofstream(in_folder(name)) << text; }
   // 3 x 3 square lattice, spacing 1, with forces 2 along x and 3 along y, as CSV.
   void write_loaded_lattice(const std::string& stem, double force_x = 2) const {
     std::string grains = "id,x,y,r\n", contacts = "i,j,N,T\n";

@@ -13,10 +13,8 @@ namespace {
 using ::testing::HasSubstr;
 using BadInput = Program;
 
-void write(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
-
 TEST_F(BadInput, AllFaultsOfASceneAtOnce) {
-  write(in_folder("scene.toml"),
+  write("scene.toml",
         "[grains]\ncount = 0\nsolid_fraction = 0.9\n[law]\nfrictoin = 0.5\nnormal_stiffness = nan\n[[stage]]\npressure "
         "= -1\n");
   const Outcome o = run("pack " + in_folder("scene.toml") + " -o " + in_folder("state.h5") + " --set law.damping=2");
@@ -46,7 +44,7 @@ TEST_F(BadInput, DamagedStates) {
   ASSERT_EQ(run("info " + whole).code, 0);
   const std::string bytes = content(whole);
   const auto refused = [&](const std::string& what, const std::string& damaged, const std::string& reason) {
-    write(in_folder("damaged.h5"), damaged);
+    write("damaged.h5", damaged);
     for (const std::string command : {"info ", "analyze "}) {
       const Outcome o = run(command + in_folder("damaged.h5"));
       EXPECT_EQ(o.code, 2) << command << what;

@@ -23,28 +23,7 @@ namespace fs = std::filesystem;
 
 class Pack : public Program {
  protected:
-  // A soft, quick scene: an agitated gas in a fixed cell, then a compression.
-  Pack() {
-    std::ofstream(in_folder("scene.toml")) << R"(seed = 3
-[grains]
-count = 60
-solid_fraction = 0.5
-[law]
-normal_stiffness = 1e4
-attraction_range = 0.01
-[step]
-fraction = 0.1
-[[stage]]
-velocity = 5
-until = "time"
-time = 2
-[[stage]]
-pressure = 0.1
-max_strain_rate = 0.1
-until = "time"
-time = 3
-)";
-  }
+  Pack() { write("scene.toml", quick_scene(60)); }
   std::string pack(const std::string& output, const std::string& more = "") const {
     return "pack " + in_folder("scene.toml") + " -o " + in_folder(output) + " " + more;
   }
@@ -55,7 +34,6 @@ time = 3
     for (std::string line; std::getline(in, line);) list.push_back(line);
     return list;
   }
-  bool exists(const std::string& name) const { return fs::exists(in_folder(name)); }
 
   // Starts the program, waits until the series has so many lines, sends the signal; the exit code.
   int interrupted(const std::string& arguments, const std::string& series, std::size_t rows, int signal) const {

@@ -25,33 +25,11 @@ namespace fs = std::filesystem;
 
 class Study : public Program {
  protected:
-  Study() { write("scene.toml", kScene); }
+  Study() { write("scene.toml", quick_scene(20)); }
 
-  static constexpr const char* kScene = R"(seed = 3
-[grains]
-count = 20
-solid_fraction = 0.5
-[law]
-normal_stiffness = 1e4
-attraction_range = 0.01
-[step]
-fraction = 0.1
-[[stage]]
-velocity = 5
-until = "time"
-time = 2
-[[stage]]
-pressure = 0.1
-max_strain_rate = 0.1
-until = "time"
-time = 3
-)";
-
-  void write(const std::string& name, const std::string& text) const { std::ofstream(in_folder(name)) << text; }
   std::string study(const std::string& folder, const std::string& more = "") const {
     return "study " + in_folder("study.toml") + " -o " + in_folder(folder) + " " + more;
   }
-  bool exists(const std::string& name) const { return fs::exists(in_folder(name)); }
   std::string text(const std::string& name) const { return content(in_folder(name)); }
   DataTable table(const std::string& name) const { return parse_table(text(name), name); }
   static double at(const DataTable& t, const std::string& name, std::size_t row) {
@@ -343,7 +321,7 @@ scene = "missing.toml"
   EXPECT_EQ(run("study " + in_folder("none.toml") + " -o " + in_folder("out")).code, 2);
   EXPECT_EQ(run(study("scene.toml")).code, 2) << "a file, not a folder";
   EXPECT_FALSE(exists("out"));
-  EXPECT_EQ(text("scene.toml"), kScene);
+  EXPECT_EQ(text("scene.toml"), quick_scene(20));
 }
 
 TEST_F(Study, AFailedAnalysisIsListed) {

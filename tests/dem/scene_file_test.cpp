@@ -14,7 +14,9 @@
 #include "dem/input_error.hpp"
 #include "dem/scales.hpp"
 #include "dem/scene_check.hpp"
+#include "dem/scene_documentation.hpp"
 #include "dem/scene_keys.hpp"
+#include "dem/scene_text.hpp"
 #include "dem/suggestion.hpp"
 
 namespace isostat {
@@ -201,9 +203,8 @@ Scene random_scene() {
     return std::isfinite(range.low) ? range.low + std::pow(10.0, *rc::gen::inRange(-8, 9)) * unit : unit;
   };
   for (const SceneKey& key : scene_keys()) {
-    if (belongs_to_units(key) && !scene.units) continue;
     for (std::size_t stage = 0; stage < (belongs_to_stage(key) ? scene.stages.size() : 1); ++stage) {
-      if (key.applies && !key.applies(scene)) continue;
+      if (!applies(key, scene)) continue;
       std::visit(
           [&](auto* value) {
             using T = std::remove_cvref_t<decltype(*value)>;
@@ -235,7 +236,7 @@ Scene without_ignored(Scene scene) {
   plain.stages.resize(scene.stages.size());
   plain.units = scene.units;
   for (const SceneKey& key : scene_keys())
-    if (key.applies && !key.applies(scene))
+    if (key.condition.holds && !applies(key, scene))
       std::visit([&](auto* value) { *value = *std::get<decltype(value)>(key.field(plain, 0)); }, key.field(scene, 0));
   return scene;
 }

@@ -5,7 +5,7 @@
 #include "dem/input_error.hpp"
 #include "dem/network_file.hpp"
 #include "dem/scene_file.hpp"
-#include "dem/scene_keys.hpp"
+#include "dem/scene_text.hpp"
 #include "dem/state_file.hpp"
 
 namespace isostat {
