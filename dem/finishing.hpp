@@ -3,6 +3,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -12,15 +13,17 @@ namespace isostat {
 
 // How the cell is held while a packing settles.
 struct FinishingRequest {
-  ImposedStress stress;     // [F0/a] imposed in each direction; none: that edge keeps its length
-  double cell_inertia = 1;  // M of Gilabert 2007, Eq. 3 [m]
-  double drag = 0;          // [1/T0] of a global drag on what still moves
-  bool drift_only = false;  // clusters still fly towards each other: on to the next capture, never to rest
+  ImposedStress stress;                 // [F0/a] imposed in each direction; none: that edge keeps its length
+  double cell_inertia = 1;              // M of Gilabert 2007, Eq. 3 [m]
+  double drag = 0;                      // [1/T0] of a global drag on what still moves
+  bool drift_only = false;              // clusters still fly towards each other: on to the next capture, never to rest
+  std::function<bool()> interrupted{};  // asked before every implicit step; true: give up at once, the state as it was
 };
 
 struct FinishingReport {
   bool settled = false;             // the state is at rest in equilibrium
   bool advanced = false;            // the state has drifted on, at most to just before a capture
+  bool interrupted = false;         // given up on request
   bool capture = false;             // a pair is about to come within reach: for the dynamics to follow
   int steps = 0;                    // accepted implicit steps
   std::int64_t factorisations = 0;  // of the tangent stiffness
@@ -35,8 +38,8 @@ class StaticSolver {
   // From a state in which only creep is left to rest in equilibrium under the same law, spring histories included.
   // Where two grains are about to come within reach of each other's attraction it stops, and leaves the moving packing
   // as it is just before (advanced), to be marched through the event. If it can do neither, the state stays as it is,
-  // bit for bit. `time` does not advance; the solver's memory is emptied, so
-  // that a Solver made from the state starts from packing and links; the energy that the solve takes out goes to
+  // bit for bit. `time` does not advance; the solver's memory is emptied, so that a Solver made from the state starts
+  // from packing and links; the energy that the solve takes out goes to
   // ledger.injected. The result depends neither on threads nor on the order in which the grains are stored.
   virtual FinishingReport settle(State& state, const FinishingRequest& request) = 0;
 };

@@ -87,7 +87,7 @@ class StageRun {
           if (over(outcome)) return true;
         }
       }
-      if (hooks_.interrupted && hooks_.interrupted()) {
+      if (interrupted_ || (hooks_.interrupted && hooks_.interrupted())) {
         solver_->snapshot(s_);
         certify();
         return false;
@@ -287,8 +287,13 @@ class StageRun {
   // the stage.
   void settle() {
     const CellControl control = cell_control(s_, stage_);
-    const FinishingReport report = finisher_->settle(
-        s_, {control.stress, control.inertia, rings() && !still_flying() ? s_.scene.finish.drag : 0.0, still_flying()});
+    const FinishingReport report =
+        finisher_->settle(s_, {control.stress, control.inertia, rings() && !still_flying() ? s_.scene.finish.drag : 0.0,
+                               still_flying(), hooks_.interrupted});
+    if (report.interrupted) {
+      interrupted_ = true;  // nothing has changed: a resumed run begins the same solve
+      return;
+    }
     if (report.settled || report.advanced) {
       times_before_ += solver_->times();
       solver_.emplace(s_, control, options_);
@@ -319,6 +324,7 @@ class StageRun {
   double last_observation_ = 0;  // [observe_interval]
   double solid_fraction_before_ = 0;
   double last_checkpoint_;
+  bool interrupted_ = false;  // in a static solve
 };
 
 }  // namespace

@@ -68,6 +68,7 @@ class Settling {
     bool met = false;
     int short_steps = 0;
     while (!met && report_.steps < kMostSteps) {
+      if (interrupted()) return refuse("interrupted");
       const Outcome o = step(dt, false);
       if (o.captures && dt <= kNearCapture) {
         report_.capture = true;
@@ -93,7 +94,7 @@ class Settling {
     // As for the bare law, the criteria decide; a drift that never ends is named by polish() if a force drives it.
     if (!met && !criteria_met(1))
       return refuse("the criteria are not met after " + std::to_string(kMostSteps) + " implicit steps");
-    polish(dt);
+    if (!polish(dt)) return refuse("interrupted");
     keep();
     report_.settled = true;
     report_.factorisations = factor_.factorisations();
@@ -108,6 +109,11 @@ class Settling {
     double displacement = 0;  // [a]
     const char* refused = "";
   };
+
+  bool interrupted() {
+    report_.interrupted = request_.interrupted && request_.interrupted();
+    return report_.interrupted;
+  }
 
   void keep() {
     const double before = without_injection(s_);
@@ -242,14 +248,15 @@ class Settling {
               o.displacement, o.refused});
   }
 
-  // From here on every step starts from rest: what moves, moves because a force drives it.
-  void polish(double dt) {
+  // From here on every step starts from rest: what moves, moves because a force drives it. False: interrupted.
+  bool polish(double dt) {
     const double target = std::max(kTarget * scale_, floor_);
     double best = residual();
     int since_best = 0;
     std::fill(velocity_.begin(), velocity_.end(), 0.0);
     Vector last(network_.size(), 0.0);
     for (int k = 0; k < kMostPolishing && residual() > target && since_best < kStalled; ++k) {
+      if (interrupted()) return false;
       const Outcome o = step(dt, true);
       if (!o.accepted) {
         dt *= kShrink;
@@ -264,12 +271,13 @@ class Settling {
       since_best = residual() < 0.5 * best ? 0 : since_best + 1;
       best = std::min(best, residual());
     }
-    if (residual() <= target) return;
+    if (residual() <= target) return true;
     const double fast = 0.1 * network_.largest_displacement(last);
     for (std::size_t r = 0; r < network_.grains(); ++r)
       report_.moving += std::hypot(last[3 * r], last[3 * r + 1]) > fast;
     if (report_.moving == 0) report_.moving = static_cast<std::int64_t>(network_.grains());  // the cell carries all
     report_.reason = "a floppy mode is still moving";
+    return true;
   }
 
   State& s_;

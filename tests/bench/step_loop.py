@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Cost of the step loop: lean scenes against the full one, scaling with the number of grains, two threads against one;
-and work-precision of the time step: error of `lab` experiments against closed forms or a finer step, against run time.
-Writes tests/bench/results/{lean,scaling,work_precision}.csv.   step_loop.py [--program build/release/bin/isostat]
+"""Cost of the step loop: lean scenes against the full one, scaling with the number of grains, two threads against one,
+memory per grain; and work-precision of the time step: error of `lab` experiments against closed forms or a finer step,
+against run time. Writes tests/bench/results/{lean,scaling,memory,work_precision}.csv.
+    step_loop.py [--program build/release/bin/isostat] [lean|scaling|memory|work_precision ...]   default: all
 """
 import argparse
 import json
@@ -10,7 +11,6 @@ import statistics
 import subprocess
 import sys
 import tempfile
-import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "peers"))
@@ -18,16 +18,32 @@ from tile import read_net, tile, write_net  # noqa: E402
 
 ROOT = os.path.abspath(os.path.join(HERE, "..", ".."))
 ROUNDS = 3
+STEPS = (0.12, 0.06, 0.03, 0.015, 0.0075)  # step.fraction
+
+
+def measured(*command):
+    """Standard output, CPU seconds and peak memory [kB] of a process."""
+    with tempfile.TemporaryFile("w+") as out:
+        process = subprocess.Popen(command, stdout=out, stderr=subprocess.DEVNULL)
+        _, status, usage = os.wait4(process.pid, 0)
+        if status != 0:
+            raise RuntimeError(f"{' '.join(command)} ended with {status}")
+        out.seek(0)
+        return out.read(), usage.ru_utime + usage.ru_stime, usage.ru_maxrss
 
 
 def run(program, *words):
-    start = time.process_time()
-    text = subprocess.run([program, "lab", *words], check=True, capture_output=True, text=True).stdout
-    return json.loads(text), time.process_time() - start
+    return json.loads(measured(program, "lab", *words)[0])
 
 
 def rate(program, net, *words):
-    return run(program, "throughput", net, *words)[0]["grain_steps_per_cpu_second"] / 1e6
+    return run(program, "throughput", net, *words)["grain_steps_per_cpu_second"] / 1e6
+
+
+def tiled(directory, cell, grains, k):
+    net = os.path.join(directory, f"{k}.net")
+    write_net(net, *tile(cell, grains, k), f"tiled {k} x {k}")
+    return net
 
 
 def write(name, header, rows):
@@ -53,38 +69,72 @@ def lean(program, net):
 def scaling(program, directory, cell, grains):
     rows = []
     for k in (1, 2, 4, 8, 16, 27):
-        net = os.path.join(directory, f"{k}.net")
-        write_net(net, *tile(cell, grains, k), f"tiled {k} x {k}")
-        steps = str(max(10, int(3e7 / (len(grains) * k * k))))
-        one = [run(program, "throughput", net, "--steps", steps)[0] for _ in range(2)]
-        two = [run(program, "throughput", net, "--steps", steps, "--threads", "2")[0] for _ in range(2)]
-        wall = max(t["grain_steps_per_wall_second"] for t in two) / max(t["grain_steps_per_wall_second"] for t in one)
-        rows.append((len(grains) * k * k, round(max(t["grain_steps_per_cpu_second"] for t in one) / 1e6, 2), round(wall, 2)))
+        net, count = tiled(directory, cell, grains, k), len(grains) * k * k
+        steps = str(max(10, int(3e7 / count)))
+        one, two = [], []
+        for _ in range(ROUNDS):
+            one.append(run(program, "throughput", net, "--steps", steps))
+            two.append(run(program, "throughput", net, "--steps", steps, "--threads", "2"))
+        wall = [statistics.median(t["grain_steps_per_wall_second"] for t in runs) for runs in (one, two)]
+        rows.append((count, round(statistics.median(t["grain_steps_per_cpu_second"] for t in one) / 1e6, 2),
+                     round(wall[1] / wall[0], 2)))
     write("scaling.csv", "grains,million_grain_steps_per_cpu_second,wall_speedup_two_threads", rows)
 
 
+def memory(program, directory, cell, grains):
+    """Growth of the peak resident memory of the whole process between two sizes."""
+    scene = os.path.join(directory, "gas.toml")
+    with open(scene, "w") as out:
+        out.write('[law]\nnormal_stiffness = 1e4\n[[stage]]\nvelocity = 1\nuntil = "time"\ntime = 0.02\n')
+    commands = {"lab throughput, dense state, plain text": lambda k: ["lab", "throughput", tiled(directory, cell, grains, k),
+                                                                      "--steps", "20"],
+                "pack, gas, state file": lambda k: ["pack", scene, "-o", os.path.join(directory, "gas.h5"), "--set",
+                                                    f"grains.count={len(grains) * k * k}"]}
+    small, large = 8, 16
+    rows = []
+    for name, words in commands.items():
+        peak = [measured(program, *words(k))[2] for k in (small, large)]
+        rows.append((f'"{name}"', len(grains) * large**2, peak[1],
+                     round((peak[1] - peak[0]) * 1024 / (len(grains) * (large**2 - small**2)))))
+    write("memory.csv", "command,grains,peak_kB,bytes_per_grain", rows)
+
+
 def work_precision(program):
-    rows, reference = [], run(program, "cluster", "double-triangle", "--step", "0.002")[0]["N_outer"]
-    for step in (0.12, 0.06, 0.03, 0.015, 0.0075):
-        pair, seconds = run(program, "pair", "restitution", "--step", str(step))
-        r = pair["restitution"]
-        rows.append(("pair restitution", step, abs(r["mean"] - r["exact"]), r["spread"]))
-        cluster, _ = run(program, "cluster", "double-triangle", "--step", str(step))
-        rows.append(("double triangle N_outer", step, abs(cluster["N_outer"] - reference), ""))
-    fine = run(program, "pair", "oblique", "--step", "0.002")[0]["oblique"]
-    for step in (0.12, 0.06, 0.03, 0.015, 0.0075):
-        coarse = run(program, "pair", "oblique", "--step", str(step))[0]["oblique"]
-        rows.append(("oblique impact", step, max(abs(a["tangential"] - b["tangential"]) for a, b in zip(coarse, fine)),
-                     max(a["spread"] for a in coarse)))
-    write("work_precision.csv", "label,step_fraction,error,spread", rows)
+    """An experiment takes milliseconds: CPU time is the least of many runs, less that of a program that does nothing."""
+    start = min(measured(program, "lab", "--help")[1] for _ in range(20))
+
+    def timed(step, *words):
+        command = (program, "lab", *words, "--step", str(step))
+        seconds = min(measured(*command)[1] for _ in range(20)) - start
+        return json.loads(measured(*command)[0]), round(max(seconds, 0), 5)
+
+    rows, fine = [], 0.002
+    outer = run(program, "cluster", "double-triangle", "--step", str(fine))["N_outer"]
+    oblique = run(program, "pair", "oblique", "--step", str(fine))["oblique"]
+    for step in STEPS:
+        answer, seconds = timed(step, "pair", "restitution")
+        r = answer["restitution"]
+        rows.append(("pair restitution", step, seconds, abs(r["mean"] - r["exact"]), r["spread"]))
+        answer, seconds = timed(step, "cluster", "double-triangle")
+        rows.append(("double triangle N_outer", step, seconds, abs(answer["N_outer"] - outer), ""))
+        answer, seconds = timed(step, "pair", "oblique")
+        rows.append(("oblique impact", step, seconds,
+                     max(abs(a["tangential"] - b["tangential"]) for a, b in zip(answer["oblique"], oblique)),
+                     max(a["spread"] for a in answer["oblique"])))
+    write("work_precision.csv", "label,step_fraction,cpu_seconds,error,spread", rows)
 
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser()
     parser.add_argument("--program", default=os.path.join(ROOT, "build/release/bin/isostat"))
-    program = parser.parse_args().program
+    parser.add_argument("parts", nargs="*", default=[])
+    options = parser.parse_args()
+    program = os.path.abspath(options.program)
     source = os.path.join(ROOT, "data/clusters/dense_1400.net")
-    lean(program, source)
-    work_precision(program)
+    wanted = options.parts or ["lean", "work_precision", "memory", "scaling"]
     with tempfile.TemporaryDirectory() as directory:
-        scaling(program, directory, *read_net(source))
+        for part in wanted:
+            if part in ("lean", "work_precision"):
+                {"lean": lambda: lean(program, source), "work_precision": lambda: work_precision(program)}[part]()
+            else:
+                {"memory": memory, "scaling": scaling}[part](program, directory, *read_net(source))
