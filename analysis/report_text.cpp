@@ -72,17 +72,24 @@ void add_lines(std::string& text, const std::string& prefix, const Json& object)
   }
 }
 
-// Single numbers, also in nested objects and small arrays of arrays (tensors), under dotted keys.
+// Square, of two or three rows; other arrays of arrays are lists by input.
+bool is_tensor(const Json& v) {
+  return v.is_array() && v.size() >= 2 && v.size() <= 3 && std::all_of(v.begin(), v.end(), [&](const Json& row) {
+           return row.is_array() && row.size() == v.size() && std::all_of(row.begin(), row.end(), is_scalar);
+         });
+}
+
+// Single numbers, also in nested objects and tensors, under dotted keys.
 void add_scalars(std::vector<std::pair<std::string, const Json*>>& rows, const std::string& prefix, const Json& v) {
   if (is_scalar(v)) {
     rows.emplace_back(prefix, &v);
   } else if (v.is_object() && !is_histogram(v)) {
     for (const auto& [key, member] : v.items())
       if (!is_column(member)) add_scalars(rows, prefix.empty() ? key : prefix + "." + key, member);
-  } else if (v.is_array() && !v.empty() && v.front().is_array()) {
+  } else if (is_tensor(v)) {
     for (std::size_t k = 0; k < v.size(); ++k)
-      for (std::size_t l = 0; v[k].is_array() && l < v[k].size(); ++l)
-        if (is_scalar(v[k][l])) rows.emplace_back(prefix + "." + std::to_string(k) + "." + std::to_string(l), &v[k][l]);
+      for (std::size_t l = 0; l < v.size(); ++l)
+        rows.emplace_back(prefix + "." + std::to_string(k) + "." + std::to_string(l), &v[k][l]);
   }
 }
 
