@@ -8,6 +8,8 @@
 #include "dem/input_error.hpp"
 #include "dem/packing_file.hpp"
 #include "dem/random.hpp"
+#include "dem/scales.hpp"
+#include "dem/scene_text.hpp"
 #include "dem/touching.hpp"
 
 namespace isostat {
@@ -95,6 +97,12 @@ State state_from_file(const Scene& scene, std::uint64_t seed) {
                            std::to_string(sum - norm(r)) + " a; at most a tenth of the sum of radii is allowed");
   }
   state.time_step = time_step(scene, state.law.normal_stiffness, b);
+  const double smallest = 2 * *std::min_element(b.radius.begin(), b.radius.end());
+  const double bound = scene.step.fraction * critical_time_step(state.law, smallest) / state.time_step;
+  if (!(scene.step.fraction < bound))
+    throw InputError(path, 0, "step.fraction", real_text(scene.step.fraction),
+                     "unstable for the smallest grain of this file, diameter " + real_text(smallest) + " a; below " +
+                         real_text(bound));
   state.cell_motion.reference_length = state.packing.cell->length;
   return state;
 }

@@ -1,0 +1,71 @@
+// Starting from a file: what is taken over from it, and what is refused.
+#include "dem/sample.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "dem/input_error.hpp"
+#include "dem/scales.hpp"
+
+namespace isostat {
+namespace {
+
+using ::testing::HasSubstr;
+
+class StartFromFile : public ::testing::Test {
+ protected:
+  StartFromFile() {
+    path_ =
+        (std::filesystem::temp_directory_path() / ("isostat-sample-" + std::to_string(::getpid()) + ".net")).string();
+    scene_.grains.file = path_;
+    scene_.law.normal_stiffness = 1e4;
+  }
+  ~StartFromFile() override { std::filesystem::remove(path_); }
+
+  void file(const std::string& text) const { std::ofstream(path_) << text; }
+  std::string refusal() const {
+    try {
+      (void)initial_state(scene_, 1);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "";
+  }
+
+  std::string path_;
+  Scene scene_;
+};
+
+TEST_F(StartFromFile, TheHeaviestGrainSetsTheStepAndTheLightestItsBound) {
+  file("cell 10 8\ngrain 0 1 1 0.5\ngrain 1 4 4 0.25\n");
+  scene_.step.fraction = 0.12;
+  const State s = initial_state(scene_, 1);
+  EXPECT_DOUBLE_EQ(s.time_step, 0.12 / std::sqrt(1e4));
+  EXPECT_EQ(s.packing.bodies.size(), 2u);
+  EXPECT_EQ(s.packing.cell->length, (Vec2{{10, 8}}));
+
+  file("cell 10 8\ngrain 0 1 1 0.5\ngrain 1 4 4 0.025\n");
+  const double bound = critical_time_step(s.law, 0.05) * std::sqrt(1e4);
+  ASSERT_GT(0.12, bound);
+  EXPECT_THAT(refusal(), HasSubstr("unstable for the smallest grain"));
+  EXPECT_THAT(refusal(), HasSubstr("step.fraction"));
+  scene_.step.fraction = 0.99 * bound;
+  EXPECT_EQ(refusal(), "");
+}
+
+TEST_F(StartFromFile, DeepOverlapsAndWhatIsNoPackingOfDisksAreRefused) {
+  file("cell 10 8\ngrain 0 1 1 0.5\ngrain 1 1.8 1 0.5\n");
+  EXPECT_THAT(refusal(), HasSubstr("overlap by 0.2"));
+  file("grain 0 1 1 0.5\n");
+  EXPECT_THAT(refusal(), HasSubstr("periodic cell"));
+  file("cell 10 8\n");
+  EXPECT_NE(refusal(), "");
+}
+
+}  // namespace
+}  // namespace isostat
