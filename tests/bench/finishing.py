@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """The same samples ended by the bare law, by a drag and by static solves (docs/equilibrium.md).
 
-Method 1: whole runs, identical up to the finishing. Method 2 is chaotic between its stages, so its last stage, the load
-P* = .01, is run by each method from one and the same state at P* = 0. Writes every sample to docs/results/finishing.csv
-and prints means of the pairs' differences.   finishing.py [--program build/release/bin/isostat] [--grains 400] [--jobs 1]
+Method 1, and method 2 to P* = 0: whole runs, identical up to the finishing. The load P* = .01 of method 2 begins with a
+collapse, which is chaotic: it is run by each method from one and the same state at P* = 0. Writes every sample to
+docs/results/finishing.csv and prints means of the pairs' differences.
+    finishing.py [--program build/release/bin/isostat] [--grains 400] [--jobs 1] [--only TEXT]
+With --only, the cases whose name holds the text are run and replace their rows in the table.
 """
 import argparse
 import concurrent.futures
@@ -23,7 +25,8 @@ METHODS = ("none", "drag", "newton")
 NUMBERS = ("solid_fraction", "z", "z_star", "N_plus", "N_minus", "zero_fraction", "max_force", "cpu_seconds")
 HEADER = ("scene", "rolling", "seed", "finishing", "equilibrated") + NUMBERS
 CASES = (("disks-method1", False, 8), ("disks-method1-cohesionless", False, 8), ("disks-method1", True, 4),
-         ("disks-method2-a, last stage", False, 6), ("disks-method2-a, last stage", True, 6))  # scene, rolling, seeds
+         ("disks-method2-a, P* = 0", False, 4), ("disks-method2-a, last stage", False, 6),
+         ("disks-method2-a, last stage", True, 6))  # scene, rolling, seeds
 
 LAST_STAGE = """[grains]
 file = "{state}"
@@ -68,6 +71,12 @@ def sample(program, grains, scene, rolling, seed):
                 out.write(LAST_STAGE.format(state=os.path.join(directory, "s.stage1.h5"), rolling=truth))
         else:
             settings += shared
+        if "P* = 0" in scene:
+            with open(path) as whole:
+                first_two = whole.read().rsplit("[[stage]]", 1)[0]
+            path = os.path.join(directory, "two.toml")
+            with open(path, "w") as out:
+                out.write(first_two)
         for method in METHODS:
             state = os.path.join(directory, f"{method}.h5")
             seconds = pack(program, path, state, *settings, f'finish.method="{method}"')
@@ -102,17 +111,25 @@ def main():
     parser.add_argument("--program", default=os.path.join(ROOT, "build/release/bin/isostat"))
     parser.add_argument("--grains", type=int, default=400)
     parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--only", default="")
     options = parser.parse_args()
     program = os.path.abspath(options.program)
+    cases = [c for c in CASES if options.only in c[0]]
+    names = {(scene, str(rolling).lower()) for scene, rolling, _ in cases}
+    kept = []
+    if options.only:
+        with open(OUTPUT) as table:
+            kept = [row for row in list(csv.reader(table))[1:] if (row[0], row[1]) not in names]
     rows = []
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         work = [pool.submit(sample, program, options.grains, scene, rolling, seed)
-                for scene, rolling, seeds in CASES for seed in range(1, seeds + 1)]
+                for scene, rolling, seeds in cases for seed in range(1, seeds + 1)]
         for done in work:
             rows += done.result()
             with open(OUTPUT, "w", newline="") as out:  # as far as it is
                 writer = csv.writer(out, lineterminator="\n")
                 writer.writerow(HEADER)
+                writer.writerows(kept)
                 writer.writerows([f"{x:.6g}" if isinstance(x, float) else x for x in row] for row in rows)
     summary(rows)
 

@@ -17,7 +17,9 @@ import pathlib
 import sys
 
 COLUMNS = {"Phi": ("counts", "solid_fraction"), "z": ("counts", "z"), "F_perc": ("percolation", "F_perc"),
-           "mean_radius_weighted": ("pores", "mean_radius_weighted")}
+           "mean_radius_weighted": ("pores", "mean_radius_weighted"), "rattlers": ("counts", "rattlers"),
+           "distant": ("counts", "distant")}
+OVER = {"rattlers": "grains", "distant": "contacts"}  # a proportion of
 
 
 def values(folder, row, stage, quantity):
@@ -36,7 +38,7 @@ def values(folder, row, stage, quantity):
         report = report.get("report", report)
         value = report.get(section, {}).get(key)
         if value is not None:
-            found.append(float(value))
+            found.append(float(value) / (report[section][OVER[key]] if key in OVER else 1))
     return found
 
 
