@@ -28,7 +28,7 @@ struct FinishingReport {
   int steps = 0;                    // accepted implicit steps
   std::int64_t factorisations = 0;  // of the tangent stiffness
   double residual = 0;              // [F1] largest net force (moment / a, stress error a) at the end
-  std::int64_t moving = 0;          // grains that a floppy mode still moves: the residual does not vanish
+  std::int64_t moving = 0;          // grains that floppy or very soft modes still move: the residual does not vanish
   std::string reason;               // why it did not settle, or what is left
 };
 

@@ -298,9 +298,9 @@ class StageRun {
       times_before_ += solver_->times();
       solver_.emplace(s_, control, options_);
       solver_->snapshot(s_);
-      s_.certificate.finishing = report.moving > 0
-                                     ? "newton, a floppy mode still moves " + std::to_string(report.moving) + " grains"
-                                     : "newton";
+      s_.certificate.finishing = report.moving > 0 ? "newton, " + std::to_string(report.moving) +
+                                                         " grains still move in floppy or very soft modes"
+                                                   : "newton";
     }
     if (report.advanced)
       s_.certificate.finishing = kDrifting;

@@ -276,7 +276,7 @@ class Settling {
     for (std::size_t r = 0; r < network_.grains(); ++r)
       report_.moving += std::hypot(last[3 * r], last[3 * r + 1]) > fast;
     if (report_.moving == 0) report_.moving = static_cast<std::int64_t>(network_.grains());  // the cell carries all
-    report_.reason = "a floppy mode is still moving";
+    report_.reason = "a floppy or very soft mode is still moving";
     return true;
   }
 

@@ -16,8 +16,6 @@
 #include <fstream>
 #include <functional>
 #include <limits>
-#include <numeric>
-#include <random>
 #include <sstream>
 
 #include "dem/atomic_file.hpp"
