@@ -1,10 +1,10 @@
 #include "analysis/structure/correlation.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
+#include "analysis/structure/closed_terms.hpp"
 #include "geometry/disk_transform.hpp"
 #include "geometry/gauss_legendre.hpp"
 #include "geometry/pores.hpp"
@@ -16,69 +16,10 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kDefaultCut = 100;           // [1/diameter]
 constexpr double kMostModes = 1200.0 * 1200;  // product of the mode numbers along x and y up to the cut
 constexpr double kShellPhase = 0.1;           // [rad] phase k r across one shell of modes at the largest r
-constexpr int kTransformWidth = 8;            // the transform's error, 1e-6 of it, is below the truncation
-
-// Area common to a disk of radius R and itself moved by r: the autocorrelation of one disk.
-double self_overlap(double radius, double r) {
-  const double x = r / (2 * radius);
-  return x >= 1 ? 0 : 2 * radius * radius * (std::acos(x) - x * std::sqrt((1 - x) * (1 + x)));
-}
-
-double sum_of_self_overlaps(std::span<const double> radius, double r) {
-  double sum = 0;
-  for (const double R : radius) sum += self_overlap(R, r);
-  return sum;
-}
-
-// Sum over disks of the squared form factor (2 pi R J1(kR)/k)^2 as piecewise polynomials in k.
-class FormFactors {
- public:
-  FormFactors(std::span<const double> radius, double k_max) {
-    const double largest = *std::max_element(radius.begin(), radius.end());
-    pieces_ = static_cast<int>(std::ceil(k_max * largest)) + 1;  // phase 2 k R of the square: 2 radians a piece
-    step_ = k_max / (pieces_ - 1);
-    value_.resize(static_cast<std::size_t>(pieces_ * kNodes));
-    for (int p = 0; p < pieces_; ++p)
-      for (int j = 0; j < kNodes; ++j) {
-        const double k = step_ * (p + 0.5 * (1 + node(j)));
-        double sum = 0;
-        for (const double R : radius) {
-          const double f = k > 0 ? 2 * kPi * R * ::j1(k * R) / k : kPi * R * R;
-          sum += f * f;
-        }
-        value_[static_cast<std::size_t>(p * kNodes + j)] = sum;
-      }
-    for (int j = 0; j < kNodes; ++j)
-      barycentric_[static_cast<std::size_t>(j)] = (j % 2 ? -1 : 1) * std::sin(kPi * (j + 0.5) / kNodes);
-  }
-  double operator()(double k) const {
-    const int p = std::min(pieces_ - 1, static_cast<int>(k / step_));
-    const double t = 2 * (k / step_ - p) - 1;
-    double top = 0, bottom = 0;
-    for (int j = 0; j < kNodes; ++j) {
-      const double off = t - node(j), f = value_[static_cast<std::size_t>(p * kNodes + j)];
-      if (off == 0) return f;
-      const double w = barycentric_[static_cast<std::size_t>(j)] / off;
-      top += w * f, bottom += w;
-    }
-    return top / bottom;
-  }
-
- private:
-  static constexpr int kNodes = 12;
-  static double node(int j) {
-    static const auto nodes = [] {
-      std::array<double, kNodes> x{};
-      for (int i = 0; i < kNodes; ++i) x[static_cast<std::size_t>(i)] = std::cos(kPi * (i + 0.5) / kNodes);
-      return x;
-    }();
-    return nodes[static_cast<std::size_t>(j)];
-  }
-  int pieces_;
-  double step_;
-  std::vector<double> value_;
-  std::array<double, kNodes> barycentric_{};
-};
+constexpr int kTransformWidth = 9;
+constexpr double kNearGap = 10;       // [1/k_cut] pairs up to this gap are split off
+constexpr double kDeepOverlap = 0.3;  // [1/k_cut] deeper overlaps end the k^-7/2 tail of contacts near the cut: Porod
+constexpr double kMassStep = 0.1;     // [diameter] between the Gauss rules of the mass integral
 
 // Modes gathered in shells of equal width: a mode is shared among the four nearest shells by cubic interpolation, so
 // that sums of smooth functions of k are kept to fourth order in the width.
@@ -152,36 +93,38 @@ CorrelationCurve density_correlation(std::span<const Vec2> centre, std::span<con
   out.k_cut = k_cut > 0 ? k_cut : default_cut(radius, cell);
   const double area = cell.measure();
   const auto t = disk_transform(centre, radius, cell, {.k_max = out.k_cut, .kernel_width = kTransformWidth});
-  const FormFactors self(radius, out.k_cut);
+  ClosedTerms closed(disk_complex(centre, radius, cell, kNearGap / out.k_cut), radius, kDeepOverlap / out.k_cut,
+                     out.r.back());
+  closed.tabulate(out.k_cut);
   Shells shells(out.k_cut, kShellPhase / std::max(out.r.back(), kShellPhase / out.k_cut));
   for (std::int64_t mx = 0; mx <= t.mx_max; ++mx)
     for (std::int64_t my = -t.my_max; my <= t.my_max; ++my) {
       const double k2 = t.k2(mx, my);
       if (k2 > out.k_cut * out.k_cut) continue;
       const double k = std::sqrt(k2);
-      shells.add(k, (mx == 0 ? 1 : 2) * (std::norm(t.at(mx, my)) - self(k)) / (area * area));
+      shells.add(k, (mx == 0 ? 1 : 2) * (std::norm(t.at(mx, my)) - closed.spectrum(k)) / (area * area));
     }
   out.solid_fraction = t.at(0, 0).real() / area;
 
-  const double diameter = 2 * *std::max_element(radius.begin(), radius.end());
-  const auto rule = gauss_legendre(12);
-  double self_mass = 0, reached = 0, walls = find_pores(centre, radius, cell).perimeter;
+  double walls = find_pores(centre, radius, cell).perimeter + closed.walls_within();
   for (const double R : radius) walls -= 2 * kPi * R;
   PorodTail tail(walls / (kPi * area), out.k_cut);
+  const double diameter = 2 * *std::max_element(radius.begin(), radius.end());
+  const auto rule = gauss_legendre(4);
+  double closed_mass = 0, reached = 0;
   for (const double x : out.r) {
     tail.advance(x);
-    const auto [cross, cross_mass] = shells.sums(x);
-    const double end = std::min(x, diameter);
-    if (end > reached) {  // integral of 2 pi r C_self over the step
-      const double half = 0.5 * (end - reached);
+    const auto [rest, rest_mass] = shells.sums(x);
+    while (reached < std::min(x, closed.reach())) {  // integral of 2 pi r times the closed terms over the step
+      const double half = 0.5 * std::min(diameter * kMassStep, std::min(x, closed.reach()) - reached);
       for (std::size_t n = 0; n < rule.node.size(); ++n) {
         const double y = reached + half * (1 + rule.node[n]);
-        self_mass += half * rule.weight[n] * 2 * kPi * y * sum_of_self_overlaps(radius, y) / area;
+        closed_mass += half * rule.weight[n] * 2 * kPi * y * closed.overlap(y) / area;
       }
-      reached = end;
+      reached += 2 * half;
     }
-    out.c.push_back(sum_of_self_overlaps(radius, x) / area + cross + tail.value());
-    out.mass.push_back((self_mass + cross_mass + tail.mass()) / out.solid_fraction);
+    out.c.push_back(closed.overlap(x) / area + rest + tail.value());
+    out.mass.push_back((closed_mass + rest_mass + tail.mass()) / out.solid_fraction);
   }
   return out;
 }

@@ -16,13 +16,13 @@ struct CorrelationCurve {
   double k_cut = 0;           // [1/length] where the sum over modes ends
 };
 
-// C(r) = sum over grains of the autocorrelation of one disk, exactly, plus (1/A) sum over the reciprocal lattice up to
-// k_cut of (|chi_hat|^2 - sum of squared form factors)/A J0(kr). The
-// second sum converges as k_cut^-5/2 for separate disks (1e-5 at k_cut = 60 / diameter, 1e-6 at 150). Touching pairs
-// leave a tail of I, -7.1 sqrt(R_i R_j/(R_i + R_j)) k^-7/2 / A a pair, hence an error of about 0.75 k_cut^-3/2 times
-// the sum of those roots over the area: 1e-4 at k_cut = 100 / diameter in a loose packing. Where disks overlap, Porod's
-// tail of the missing wall is added. k_cut 0: 100 / (largest diameter), or what kMostModes allows. r increasing from 0,
-// below half the shorter edge.
+// C(r) = autocorrelation of single disks and of pairs that touch or nearly do, in closed form (closed_terms.hpp), plus
+// (1/A) sum over the reciprocal lattice up to k_cut of (|chi_hat|^2 - their spectra)/A J0(kr), plus Porod's tail of the
+// walls that deep overlaps hide. Error of C at the default cut of 100 / (largest diameter), against exact areas
+// (tests/bench/correlation_bench.cpp): 1e-6 for separate and touching disks and for contacts of up to 1e-4 diameters
+// deep, at most 5e-5 (near r = 0) for deeper ones. Without the pairs a contact leaves the tail -7.1 sqrt(R_i R_j/(R_i +
+// R_j)) k^-7/2 / A in I(k) and errors of 5e-4: so in cells that are not larger than r + 4 radii, where pairs meet their
+// images. k_cut 0: the default, or what kMostModes allows. r increasing from 0, below half the shorter edge.
 CorrelationCurve density_correlation(std::span<const Vec2> centre, std::span<const double> radius,
                                      const PeriodicCell<2>& cell, std::vector<double> r, double k_cut = 0);
 

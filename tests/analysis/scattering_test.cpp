@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "analysis/ensemble.hpp"
-#include "analysis/structure/correlation.hpp"
 #include "analysis/structure/intensity.hpp"
 #include "analysis/structure/scattering_section.hpp"
 #include "analysis/structure/sections.hpp"
@@ -156,50 +155,6 @@ TEST(scattering, samples_of_different_size_line_up_and_pool) {
   options.k_max = 9;  // other bins: kept apart
   reports[0] = analyze(inputs[0], options, {"scattering"});
   EXPECT_FALSE(merge_reports(reports)["scattering"].contains("pooled"));
-}
-
-TEST(dacf, matches_the_checked_case) {
-  const auto expected = read_json("dacf_rsa60.json");
-  const auto d = oracle::read_disks(kData + expected["packing"].get<std::string>());
-  const auto r = expected["r"].get<std::vector<double>>();
-  const auto curve = density_correlation(d.centre, d.radius, d.cell, r, 250);
-  EXPECT_NEAR(curve.solid_fraction, expected["phi"].get<double>(), 1e-7);
-  for (std::size_t n = 0; n < r.size(); ++n) EXPECT_NEAR(curve.c[n], expected["C"][n].get<double>(), 3e-6) << r[n];
-  const auto coarse = density_correlation(d.centre, d.radius, d.cell, r);
-  for (std::size_t n = 0; n < r.size(); ++n) EXPECT_NEAR(coarse.c[n], expected["C"][n].get<double>(), 1e-5) << r[n];
-}
-
-TEST(dacf, exact_invariants) {
-  for (const auto& d : {oracle::rsa_disks(300, {20, 18}, 0.25, 0.5, 4), oracle::chain_disks(8, {25, 20}, 1e-4, 2)}) {
-    const double h = 1e-3;
-    const auto curve = density_correlation(d.centre, d.radius, d.cell, {0, h, 2 * h});
-    const auto pores = find_pores(d.centre, d.radius, d.cell);
-    // Truncation: one contact of diameters about 1/2 a disk, see density_correlation.
-    const double contacts = static_cast<double>(d.centre.size()) / d.cell.measure();
-    EXPECT_NEAR(curve.c[0], pores.covered_area / d.cell.measure(), 0.75 * std::pow(curve.k_cut, -1.5) * 0.5 * contacts);
-    const double slope = -pores.perimeter / (kPi * d.cell.measure());
-    EXPECT_NEAR((curve.c[1] - curve.c[0]) / h, slope, 0.02 * std::abs(slope));
-  }
-}
-
-TEST(dacf, mass_is_the_integral_of_the_correlation) {
-  const auto d = oracle::rsa_disks(200, {16, 15}, 0.25, 0.5, 5);
-  std::vector<double> r;
-  for (int n = 0; n <= 700; ++n) r.push_back(0.01 * n);
-  const auto curve = density_correlation(d.centre, d.radius, d.cell, r);
-  double sum = 0;
-  for (std::size_t n = 1; n < r.size(); ++n) sum += 0.01 * kPi * (r[n] * curve.c[n] + r[n - 1] * curve.c[n - 1]);
-  EXPECT_NEAR(curve.mass.back(), sum / curve.solid_fraction, 1e-4 * curve.mass.back());
-}
-
-TEST(dacf, section_has_its_keys) {
-  const auto json = dacf_section(input_of(oracle::chain_disks(8, {25, 20}, 1e-4, 2)), {});
-  EXPECT_EQ(json["r"].size(), json["C"].size());
-  EXPECT_EQ(json["r"][0], 0.0);
-  EXPECT_LT(json["r"].back().get<double>(), 10);
-  EXPECT_TRUE(json["fit"].contains("d_F"));
-  EXPECT_EQ(json["mass_radius"]["local_dimension"].size(), json["r"].size());
-  EXPECT_NEAR(json["mass_radius"]["local_dimension"][1].get<double>(), 2, 0.1);
 }
 
 }  // namespace
