@@ -6,7 +6,7 @@
 
 #include "analysis/figure/nice_numbers.hpp"
 #include "analysis/figure/plot.hpp"
-#include "analysis/figure/scattering_curve.hpp"
+#include "analysis/structure/fractal_fit.hpp"
 #include "dem/input_error.hpp"
 
 namespace isostat {
@@ -190,7 +190,8 @@ bool scattering_applies(const Json& r) {
 
 Plot scattering_plot(const Json& r, const std::string& path) {
   if (!scattering_applies(r)) refuse(path, "scattering", "no scattering function; run analyze --only scattering");
-  const Json& s = r["scattering"];
+  // An ensemble of any sizes: all modes in one curve with its own fit.
+  const Json *pooled = find(r, {"scattering", "pooled"}), &s = pooled ? *pooled : r["scattering"];
   const Values intensity = values_of(find(s, {"I"})), sigma = values_of(find(s, {"sigma"}));
   Curve points;
   points.style = CurveStyle::points;
@@ -221,7 +222,7 @@ Plot scattering_plot(const Json& r, const std::string& path) {
       const double k = low * std::pow(high / low, static_cast<double>(p) / kPoints);
       fit.x.push_back(k);
       fit.y.push_back(
-          scattering_curve(k, {d.mean, xi.mean, amplitude.mean, std::isfinite(constant.mean) ? constant.mean : 0}));
+          fractal_intensity(k, d.mean, xi.mean, amplitude.mean, std::isfinite(constant.mean) ? constant.mean : 0));
     }
     chart.curves.push_back(std::move(fit));
     const auto error = [&](const Value& v, const char* key) {

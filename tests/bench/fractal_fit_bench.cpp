@@ -33,7 +33,7 @@ DiskTransform random_field(double side, double d_f, double xi, double constant, 
 }  // namespace
 
 int main() {
-  std::printf("side,d_F,xi,fields,identifiable,d_F_bias,d_F_scatter,d_F_error,xi_bias,xi_scatter,xi_error\n");
+  std::printf("case,side,d_F_scatter,d_F_error,xi_scatter,xi_error,d_F_bias,xi_bias,fields,identifiable\n");
   for (const auto& [d_f, xi, constant] :
        {std::array{1.53, 9.3, 0.02}, std::array{1.53, 5.06, 0.02}, std::array{1.93, 6.07, 0.0}})
     for (const double side : {40.0, 60.0, 120.0, 240.0, 480.0}) {
@@ -47,9 +47,9 @@ int main() {
         const double a = fit.d_f - d_f, b = fit.xi - xi;
         n += 1, sd += a, sdd += a * a, ed += fit.error[0], sx += b, sxx += b * b, ex += fit.error[1];
       }
-      std::printf("%g,%g,%g,%d,%g,%.4f,%.4f,%.4f,%.3f,%.3f,%.3f\n", side, d_f, xi, fields, n, sd / n,
-                  std::sqrt((sdd - sd * sd / n) / (n - 1)), ed / n, sx / n, std::sqrt((sxx - sx * sx / n) / (n - 1)),
-                  ex / n);
+      std::printf("d_F %g xi %g,%g,%.4f,%.4f,%.3f,%.3f,%.4f,%.3f,%d,%g\n", d_f, xi, side,
+                  std::sqrt((sdd - sd * sd / n) / (n - 1)), ed / n, std::sqrt((sxx - sx * sx / n) / (n - 1)), ex / n,
+                  sd / n, sx / n, fields, n);
       std::fflush(stdout);
     }
 }

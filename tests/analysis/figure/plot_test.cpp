@@ -8,7 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "analysis/figure/scattering_curve.hpp"
+#include "analysis/structure/fractal_fit.hpp"
 #include "dem/input_error.hpp"
 
 namespace isostat {
@@ -42,12 +42,12 @@ std::string message_of(const auto& action) {
 }
 
 // Eq. 28 against 2F1 to 14 digits, near d_F = 2 relative to its value at k = 0 since it vanishes there.
-TEST(ScatteringCurve, AgreesWithTheTable) {
+TEST(ScatteringPlot, CurveAgreesWithTheTable) {
   for (const Json& row : parsed("/geometry/hyp2f1_table.json")["rows"]) {
     const double d = row[0], x = row[1], expected = row[2];
     for (const double xi : {1.0, 7.3}) {
       const double scale = 2.5 * std::tgamma(d) * std::pow(xi, d);
-      EXPECT_NEAR(scattering_curve(x / xi, {d, xi, 2.5, 0.125}), 0.125 + scale * expected,
+      EXPECT_NEAR(fractal_intensity(x / xi, d, xi, 2.5, 0.125), 0.125 + scale * expected,
                   1e-13 * (0.125 + scale * expected) + 1e-15 * scale * std::pow(1 + x * x, -d / 2))
           << d << ' ' << x;
     }
@@ -104,6 +104,17 @@ TEST(ScatteringPlot, EnsembleUsesTheErrorOfTheMean) {
   EXPECT_EQ(plot.charts[0].curves[0].y, (std::vector{5.0, 3.0}));
   EXPECT_EQ(plot.charts[0].curves[0].error, (std::vector{0.5, 0.25}));
   EXPECT_EQ(plot.charts[0].notes[0].back().text, " = 1.50 \u00b1 0.03");
+}
+
+TEST(ScatteringPlot, APooledCurveGoesBeforeTheMean) {
+  const auto section = [](double high) {
+    return Json{{"k", {1.0, 2.0}}, {"I", {high, 3.0}}, {"sigma", {0.5, 0.25}}, {"fit", Json::object()}};
+  };
+  Json result = {{"scattering", section(5)}};
+  result["scattering"]["pooled"] = section(6);
+  const Plot plot = json_plot("scattering").make(result, "r.json");
+  EXPECT_EQ(plot.charts[0].curves[0].y, (std::vector{6.0, 3.0}));
+  EXPECT_EQ(plot.charts[0].curves[0].error, (std::vector{0.5, 0.25}));
 }
 
 TEST(ScatteringPlot, EmptyBinsAndAMissingFitAreLeftOut) {
