@@ -12,6 +12,7 @@
 
 #include "geometry/smoothed_disk.hpp"
 #include "geometry/union_terms.hpp"
+#include "geometry/wall_points.hpp"
 
 namespace isostat {
 namespace {
@@ -54,28 +55,17 @@ class Grid {
   // Adds weight * profile(|r - centre|) at every node within its reach, images included.
   template <class Profile>
   void add(const Vec2& centre, double weight, const Profile& profile) {
-    const double reach = profile.reach(), cx = centre[0] / step_[0];
-    const auto y0 = static_cast<std::int64_t>(std::ceil((centre[1] - reach) / step_[1]));
-    const auto y1 = static_cast<std::int64_t>(std::floor((centre[1] + reach) / step_[1]));
-    for (auto y = y0; y <= y1; ++y) {
-      const double dy = static_cast<double>(y) * step_[1] - centre[1], dy2 = dy * dy, w2 = reach * reach - dy2;
-      if (w2 < 0) continue;
-      const double w = std::sqrt(w2) / step_[0];
-      auto x = static_cast<std::int64_t>(std::ceil(cx - w));
-      const auto x1 = static_cast<std::int64_t>(std::floor(cx + w));
-      double* row = data_.get() + stride_ * modulo(y, ny_);
-      while (x <= x1) {  // runs that do not cross the cell's edge
-        const auto start = modulo(x, nx_);
-        const auto end = std::min(x1 + 1, x + nx_ - start);
-        double* node = row + start;
-        for (; x < end; ++x, ++node) {
-          const double dx = (static_cast<double>(x) - cx) * step_[0];
-          *node += weight * profile(std::min(std::sqrt(dx * dx + dy2), reach));
-        }
-      }
-    }
+    double* data = data_.get();
+    visit(centre, profile, [&](std::int64_t node, double value) { data[node] += weight * value; });
   }
-
+  // The same on two grids of one shape, the profile evaluated once.
+  template <class Profile>
+  static void add(Grid& a, Grid& b, const Vec2& centre, double weight_a, double weight_b, const Profile& profile) {
+    double *data_a = a.data_.get(), *data_b = b.data_.get();
+    a.visit(centre, profile, [&](std::int64_t node, double value) {
+      data_a[node] += weight_a * value, data_b[node] += weight_b * value;
+    });
+  }
   // Transform in place; mode (mx >= 0, my) is then at(mx, my).
   void transform() {
     auto* out = reinterpret_cast<fftw_complex*>(data_.get());
@@ -91,6 +81,30 @@ class Grid {
   }
 
  private:
+  template <class Profile, class AddAt>
+  void visit(const Vec2& centre, const Profile& profile, const AddAt& add_at) const {
+    const double reach = profile.reach(), cx = centre[0] / step_[0];
+    const auto y0 = static_cast<std::int64_t>(std::ceil((centre[1] - reach) / step_[1]));
+    const auto y1 = static_cast<std::int64_t>(std::floor((centre[1] + reach) / step_[1]));
+    for (auto y = y0; y <= y1; ++y) {
+      const double dy = static_cast<double>(y) * step_[1] - centre[1], dy2 = dy * dy, w2 = reach * reach - dy2;
+      if (w2 < 0) continue;
+      const double w = std::sqrt(w2) / step_[0];
+      auto x = static_cast<std::int64_t>(std::ceil(cx - w));
+      const auto x1 = static_cast<std::int64_t>(std::floor(cx + w));
+      const auto row = stride_ * modulo(y, ny_);
+      while (x <= x1) {  // runs that do not cross the cell's edge
+        const auto start = modulo(x, nx_);
+        const auto end = std::min(x1 + 1, x + nx_ - start);
+        auto node = row + start;
+        for (; x < end; ++x, ++node) {
+          const double dx = (static_cast<double>(x) - cx) * step_[0];
+          add_at(node, profile(std::min(std::sqrt(dx * dx + dy2), reach)));
+        }
+      }
+    }
+  }
+
   static std::int64_t modulo(std::int64_t a, std::int64_t n) {
     const auto r = a % n;
     return r < 0 ? r + n : r;
@@ -149,14 +163,88 @@ void spread_disks(Grid& grid, const RadialKernel& kernel, const std::vector<Vec2
   }
 }
 
-void spread_points(Grid& grid, const RadialKernel& kernel, const UnionTerms& terms, const PeriodicCell<2>& cell,
-                   double step) {
-  if (terms.point.empty()) return;
+void spread_points(Grid& grid, const RadialKernel& kernel, std::span<const Vec2> at, std::span<const double> weight,
+                   const PeriodicCell<2>& cell, double step) {
+  if (at.empty()) return;
   const SmoothedDiskTable table(kernel, 0, 0, step);
   SmoothedDiskTable::Profile profile;
   table.set_profile(0, profile);
-  for (std::size_t n = 0; n < terms.point.size(); ++n)
-    grid.add(cell.wrap(terms.point[n]), terms.point_weight[n], profile);
+  for (std::size_t n = 0; n < at.size(); ++n) grid.add(cell.wrap(at[n]), weight[n], profile);
+}
+
+// What a transform needs beside the disks.
+struct Plan {
+  double modes_x, modes_y;  // mode numbers up to k_max
+  std::int64_t nx, ny;      // of the grid
+  double step;              // [length] the larger one
+  RadialKernel kernel;
+};
+
+Plan plan(const PeriodicCell<2>& cell, const TransformOptions& options, int more_width) {
+  const double modes_x = options.k_max * cell.length[0] / (2 * kPi),
+               modes_y = options.k_max * cell.length[1] / (2 * kPi);
+  double oversampling = options.oversampling;
+  int width = options.kernel_width + more_width;
+  if (oversampling <= 1) {
+    const bool large = (4 * modes_x + 4) * (4 * modes_y + 4) > kLargeGrid;
+    oversampling = large ? 1.5 : 2;
+    if (large) width += 1 + width / 8;  // the same accuracy: w (1 - 1/(2 sigma)) kept
+  }
+  const double points_x = 2 * oversampling * (modes_x + 1), points_y = 2 * oversampling * (modes_y + 1);
+  if (points_x * points_y > kMostGridPoints)
+    throw std::length_error("a grid of " + std::to_string(static_cast<long long>(points_x)) + " x " +
+                            std::to_string(static_cast<long long>(points_y)) + " points is needed: lower k_max");
+  const auto nx = good_size(points_x), ny = good_size(points_y);
+  const double step = std::max(cell.length[0] / static_cast<double>(nx), cell.length[1] / static_cast<double>(ny));
+  return {modes_x, modes_y,
+          nx,      ny,
+          step,    {0.5 * width * step, kDecayFraction * kPi * width * (1 - 0.5 / oversampling), options.k_max}};
+}
+
+DiskTransform empty_transform(const PeriodicCell<2>& cell, double k_max, const Plan& p) {
+  DiskTransform out;
+  out.cell = cell, out.k_max = k_max;
+  out.mx_max = static_cast<std::int64_t>(std::floor(p.modes_x)),
+  out.my_max = static_cast<std::int64_t>(std::floor(p.modes_y));
+  out.value.assign(static_cast<std::size_t>((out.mx_max + 1) * (2 * out.my_max + 1)), 0.0);
+  return out;
+}
+
+// Adds the grid's transform times factor(mx, my, k^2) to every mode within k_max.
+template <class Factor>
+void collect(const Grid& grid, const Plan& p, DiskTransform& out, const Factor& factor) {
+  const double cell_area = grid.step()[0] * grid.step()[1], k2_max = out.k_max * out.k_max;
+  for (std::int64_t mx = 0; mx <= out.mx_max; ++mx)
+    for (std::int64_t my = -out.my_max; my <= out.my_max; ++my) {
+      const double k2 = out.k2(mx, my);
+      if (k2 > k2_max) continue;
+      out.value[static_cast<std::size_t>(mx * (2 * out.my_max + 1) + my + out.my_max)] +=
+          cell_area * p.kernel.inverse_transform(k2) * factor(mx, my, k2) * grid.at(mx, my);
+    }
+}
+
+// chi_hat = (i / k^2) integral of (k.n) exp(-ik.r) along the walls: any overlaps cost no more than the walls are long.
+// The wider kernel makes up for the division by k.
+DiskTransform transform_of_walls(const WallPoints& walls, const PeriodicCell<2>& cell,
+                                 const TransformOptions& options) {
+  const Plan p = plan(cell, options, 1);
+  Grid grid_x(p.nx, p.ny, cell), grid_y(p.nx, p.ny, cell);
+  const SmoothedDiskTable table(p.kernel, 0, 0, p.step);
+  SmoothedDiskTable::Profile profile;
+  table.set_profile(0, profile);
+  for (std::size_t n = 0; n < walls.at.size(); ++n)
+    Grid::add(grid_x, grid_y, cell.wrap(walls.at[n]), walls.normal_x[n], walls.normal_y[n], profile);
+  auto out = empty_transform(cell, options.k_max, p);
+  const auto collect_along = [&](Grid& grid, int axis) {
+    grid.transform();
+    collect(grid, p, out, [&](std::int64_t mx, std::int64_t my, double k2) {
+      const double k = 2 * kPi * static_cast<double>(axis == 0 ? mx : my) / cell.length[axis];
+      return k2 > 0 ? std::complex<double>(0, k / k2) : 0.0;
+    });
+  };
+  collect_along(grid_x, 0), collect_along(grid_y, 1);
+  out.value[static_cast<std::size_t>(out.my_max)] = walls.covered_area;
+  return out;
 }
 
 }  // namespace
@@ -170,47 +258,24 @@ double DiskTransform::k2(std::int64_t mx, std::int64_t my) const {
 DiskTransform disk_transform(std::span<const Vec2> centre, std::span<const double> radius, const PeriodicCell<2>& cell,
                              const TransformOptions& options) {
   check(centre, radius, cell, options);
-  const double modes_x = options.k_max * cell.length[0] / (2 * kPi),
-               modes_y = options.k_max * cell.length[1] / (2 * kPi);
-  double oversampling = options.oversampling;
-  int width = options.kernel_width;
-  if (oversampling <= 1) {
-    const bool large = (4 * modes_x + 4) * (4 * modes_y + 4) > kLargeGrid;
-    oversampling = large ? 1.5 : 2;
-    if (large) width += 1 + width / 8;  // the same accuracy: w (1 - 1/(2 sigma)) kept
-  }
-  const double points_x = 2 * oversampling * (modes_x + 1), points_y = 2 * oversampling * (modes_y + 1);
-  if (points_x * points_y > kMostGridPoints)
-    throw std::length_error("a grid of " + std::to_string(static_cast<long long>(points_x)) + " x " +
-                            std::to_string(static_cast<long long>(points_y)) + " points is needed: lower k_max");
-  Grid grid(good_size(points_x), good_size(points_y), cell);
-  const double step = std::max(grid.step()[0], grid.step()[1]);
-  const RadialKernel kernel(0.5 * width * step, kDecayFraction * kPi * width * (1 - 0.5 / oversampling), options.k_max);
-
+  const Plan p = plan(cell, options, 0);
   UnionTerms terms;
-  if (options.correct_overlaps)
-    terms = union_terms(centre, radius, cell, options.k_max, kOverlapTolerance);
-  else
+  if (options.correct_overlaps) {
+    auto shallow = union_terms(centre, radius, cell, options.k_max, kOverlapTolerance);
+    if (!shallow)
+      return transform_of_walls(wall_points(centre, radius, cell, options.k_max, kOverlapTolerance), cell, options);
+    terms = std::move(*shallow);
+  } else {
     terms.disk_weight.assign(centre.size(), 1);
+  }
+  Grid grid(p.nx, p.ny, cell);
   std::vector<Vec2> at(centre.begin(), centre.end());
-  for (auto& p : at) p = cell.wrap(p);
-  spread_disks(grid, kernel, at, radius, terms.disk_weight, step);
-  spread_points(grid, kernel, terms, cell, step);
+  for (auto& c : at) c = cell.wrap(c);
+  spread_disks(grid, p.kernel, at, radius, terms.disk_weight, p.step);
+  spread_points(grid, p.kernel, terms.point, terms.point_weight, cell, p.step);
   grid.transform();
-
-  DiskTransform out;
-  out.cell = cell, out.k_max = options.k_max;
-  out.mx_max = static_cast<std::int64_t>(std::floor(modes_x)),
-  out.my_max = static_cast<std::int64_t>(std::floor(modes_y));
-  out.value.assign(static_cast<std::size_t>((out.mx_max + 1) * (2 * out.my_max + 1)), 0.0);
-  const double cell_area = grid.step()[0] * grid.step()[1], k2_max = options.k_max * options.k_max;
-  for (std::int64_t mx = 0; mx <= out.mx_max; ++mx)
-    for (std::int64_t my = -out.my_max; my <= out.my_max; ++my) {
-      const double k2 = out.k2(mx, my);
-      if (k2 > k2_max) continue;
-      out.value[static_cast<std::size_t>(mx * (2 * out.my_max + 1) + my + out.my_max)] =
-          cell_area * kernel.inverse_transform(k2) * grid.at(mx, my);
-    }
+  auto out = empty_transform(cell, options.k_max, p);
+  collect(grid, p, out, [](std::int64_t, std::int64_t, double) { return 1.0; });
   return out;
 }
 

@@ -1,4 +1,4 @@
-// Quadrature points that stand for the common part of two or three disks in a Fourier transform.
+// Quadrature points that stand for the common part of two disks in a Fourier transform.
 #pragma once
 #include <array>
 #include <map>
@@ -19,13 +19,7 @@ class OverlapPoints {
   // common chord, the lens is that disk plus a (negative) crescent.
   std::array<double, 2> lens(const Vec2& p, const Vec2& branch, double r, double q, double weight);
 
-  // Common part of three disks, times `weight`: the convex polygon of its corners and a segment of one of the disks
-  // over each side. Returns the weight with which each whole disk enters besides.
-  std::array<double, 3> triple(const std::array<Vec2, 3>& p, const std::array<double, 3>& r, double weight);
-
  private:
-  void triangle(const Vec2& apex, const Vec2& b, const Vec2& c, double weight);
-  void segment(const Vec2& middle, const Vec2& out, double s, double r, double foot, double weight);
   int points_for(double phase, double share) const;
   const Quadrature& rule(int n);
   void add(const Vec2& at, double weight) { out_.point.push_back(at), out_.point_weight.push_back(weight); }

@@ -1,11 +1,9 @@
 #include "geometry/union_terms.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
+#include <cstdint>
 
-#include "geometry/disk_complex.hpp"
 #include "geometry/overlap_points.hpp"
 
 namespace isostat {
@@ -85,60 +83,20 @@ bool deep_overlaps(const std::vector<Pair>& pairs, std::span<const double> radiu
   return false;
 }
 
-void terms_of_complex(const DiskComplex& c, OverlapPoints& points, UnionTerms& out) {
-  const auto& t = c.triangulation;
-  std::fill(out.disk_weight.begin(), out.disk_weight.end(), 0.0);
-  for (std::int32_t i = 0; index(i) < c.size(); ++i) {
-    double& weight = out.disk_weight[index(c.input[index(i)])];
-    const double r = c.radius[index(i)];
-    bool closed = false, inside = t.first[index(i)] < t.first[index(i) + 1];
-    for (auto slot = t.first[index(i)]; slot < t.first[index(i) + 1]; ++slot) {
-      const auto& j = t.neighbour[index(slot)];
-      if (!c.is_disk(j.site)) continue;
-      const Vec2 b = c.branch[index(slot)];
-      const double q = c.radius[index(j.site)];
-      if (dot(b, b) + r * r - q * q < 0) inside = false;
-      if (c.edge[index(slot)] != EdgeState::closed) continue;
-      closed = true;
-      const bool once = j.site > i || (j.site == i && (j.shift[0] > 0 || (j.shift[0] == 0 && j.shift[1] > 0)));
-      if (!once) continue;
-      if (norm(b) > std::abs(r - q)) {
-        const auto whole = points.lens(c.centre[index(i)], b, r, q, -1);
-        weight += whole[0], out.disk_weight[index(c.input[index(j.site)])] += whole[1];
-      } else {
-        out.disk_weight[index(c.input[index(r < q ? i : j.site)])] -= 1;  // the smaller one is the common part
-      }
-    }
-    if (closed || inside) weight += 1;
-  }
-  for (std::size_t f = 0; f < t.faces.size(); ++f) {
-    if (!c.face_covered[f]) continue;
-    const auto& v = t.faces[f];
-    const auto slot = t.slot_of(v[0].site, v[1]);
-    const Vec2 p = c.centre[index(v[0].site)], a = c.branch[index(slot)], b = c.branch[index(t.next(v[0].site, slot))];
-    const std::array<double, 3> r{c.radius[index(v[0].site)], c.radius[index(v[1].site)], c.radius[index(v[2].site)]};
-    const auto whole = points.triple({p, p + a, p + b}, r, 1);
-    for (std::size_t m = 0; m < 3; ++m) out.disk_weight[index(c.input[index(v[m].site)])] += whole[m];
-  }
-}
-
 }  // namespace
 
-UnionTerms union_terms(std::span<const Vec2> centre, std::span<const double> radius, const PeriodicCell<2>& cell,
-                       double k_max, double tolerance) {
+std::optional<UnionTerms> union_terms(std::span<const Vec2> centre, std::span<const double> radius,
+                                      const PeriodicCell<2>& cell, double k_max, double tolerance) {
   UnionTerms out;
   out.disk_weight.assign(centre.size(), 1);
   if (centre.empty()) return out;
-  OverlapPoints points(out, k_max, tolerance);
   const auto pairs = overlapping_pairs(centre, radius, cell);
-  if (pairs && !deep_overlaps(*pairs, radius)) {
-    for (const auto& p : *pairs) {
-      const auto whole = points.lens(centre[index(p.i)], p.branch, radius[index(p.i)], radius[index(p.j)], -1);
-      out.disk_weight[index(p.i)] += whole[0], out.disk_weight[index(p.j)] += whole[1];
-    }
-    return out;
+  if (!pairs || deep_overlaps(*pairs, radius)) return std::nullopt;
+  OverlapPoints points(out, k_max, tolerance);
+  for (const auto& p : *pairs) {
+    const auto whole = points.lens(centre[index(p.i)], p.branch, radius[index(p.i)], radius[index(p.j)], -1);
+    out.disk_weight[index(p.i)] += whole[0], out.disk_weight[index(p.j)] += whole[1];
   }
-  terms_of_complex(disk_complex(centre, radius, cell), points, out);
   return out;
 }
 

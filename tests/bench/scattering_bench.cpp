@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <ctime>
 #include <numbers>
+#include <string_view>
 
 #include "analysis/structure/intensity.hpp"
 #include "tests/oracle/direct_transform.hpp"
@@ -96,14 +97,15 @@ void measure(const char* kind, const oracle::Disks& d, bool slow_ways) {
       timed(3, [&] { return by_transform({.k_max = k_max, .kernel_width = 10, .oversampling = 1.5}); }));
   row("no_overlaps", 9, timed(3, [&] { return by_transform({.k_max = k_max, .correct_overlaps = false}); }));
   if (!slow_ways) return;
-  row("direct_sum", 0, timed(1, [&] {
-        return average_intensity(filled(d, k_max,
-                                        [&](std::int64_t mx, std::int64_t my) {
-                                          return oracle::sum_over_disks(d, {2 * kPi * double(mx) / d.cell.length[0],
-                                                                            2 * kPi * double(my) / d.cell.length[1]});
-                                        }),
-                                 edges);
-      }));
+  if (std::string_view(kind) == "rsa")  // overlaps count twice in the sum over disks
+    row("direct_sum", 0, timed(1, [&] {
+          return average_intensity(filled(d, k_max,
+                                          [&](std::int64_t mx, std::int64_t my) {
+                                            return oracle::sum_over_disks(d, {2 * kPi * double(mx) / d.cell.length[0],
+                                                                              2 * kPi * double(my) / d.cell.length[1]});
+                                          }),
+                                   edges);
+        }));
   for (const double mesh : {25, 50, 100, 200})
     row("mesh", mesh, timed(1, [&] { return average_intensity(by_mesh(d, k_max, 1 / mesh), edges); }));
 }
@@ -124,6 +126,10 @@ oracle::Disks contacts(int n) {
 
 int main(int argc, char**) {
   std::printf("kind,method,parameter,cpu_ms,error\n");
+  const auto foam = [](std::size_t n) {  // areas summed 1.5, of which .78 is left as union
+    const double side = std::sqrt(double(n) * kPi * 0.146 / 1.5);
+    return oracle::poisson_disks(n, {side, side}, 0.25, 0.5, 1);
+  };
   const auto rsa = [](std::size_t n, double r_max) {
     const double side = std::sqrt(double(n) * kPi * 0.146 / 0.36);
     return oracle::rsa_disks(n, {side, side}, 0.25, r_max, 1);
@@ -131,9 +137,11 @@ int main(int argc, char**) {
   if (argc > 1) {
     measure("rsa", rsa(100000, 0.5), false);
     measure("contacts", contacts(316), false);
+    measure("foam", foam(100000), false);
     return 0;
   }
   measure("rsa", rsa(1400, 0.5), true);
   measure("chains", oracle::chain_disks(42, {44, 44}, 1e-5, 1), true);
   measure("contacts", contacts(38), false);
+  measure("foam", foam(1400), true);
 }
