@@ -10,14 +10,18 @@
 #include "dem/formats/text_table.hpp"
 #include "dem/input_error.hpp"
 #include "dem/network_file.hpp"
+#include "dem/state_check.hpp"
 #include "dem/state_file.hpp"
 #include "dem/touching.hpp"
 
 namespace isostat {
 namespace {
 
+// What could not be kept as a state: squares of lengths that overflow or vanish, say.
 template <int D>
-void set_packing(PackingFile& file, Packing<D> packing) {
+void set_packing(PackingFile& file, Packing<D> packing, const std::string& path) {
+  if (const auto fault = packing_fault(packing))
+    throw InputError(path, 0, fault->field, "", fault->rule + "; check the units");
   if constexpr (D == 2)
     file.packing = std::move(packing);
   else
@@ -47,6 +51,9 @@ void set_box(Packing<D>& packing, const std::string& path, const PackingReading&
 template <int D>
 void check_cell(const Packing<D>& packing, const std::string& path) {
   if (!packing.cell) return;
+  for (int k = 0; k < D; ++k)
+    if (!(packing.cell->length[k] > 0) || !std::isfinite(packing.cell->length[k]))
+      throw InputError(path, 0, "cell", std::to_string(packing.cell->length[k]), "an edge must be positive and finite");
   constexpr double kMostImages = 1e8;  // shifts stay exact integers
   for (std::size_t i = 0; i < packing.bodies.size(); ++i)
     for (int k = 0; k < D; ++k)
@@ -81,7 +88,7 @@ void read_network_into(PackingFile& file, const std::string& path, const Packing
       link.gap = norm(branch) - b.radius[i] - b.radius[j];
     }
   }
-  set_packing(file, std::move(network.packing));
+  set_packing(file, std::move(network.packing), path);
 }
 
 // Grains of a table, a cell, and the links of a second table if there is one.
@@ -98,7 +105,7 @@ void read_tables_into(PackingFile& file, const TextTable& grains, const std::opt
     packing.links = read_links<D>(*links, packing);
   else
     find_touching(packing, reading);
-  set_packing(file, std::move(packing));
+  set_packing(file, std::move(packing), grains.path);
 }
 
 void read_tables(PackingFile& file, const TextTable& grains, const std::optional<TextTable>& links,

@@ -9,7 +9,10 @@ namespace {
 using Broken = std::optional<StateFault>;
 
 bool finite(double x) { return std::isfinite(x); }
-bool finite(const Vec2& v) { return std::isfinite(v[0]) && std::isfinite(v[1]); }
+template <int D>
+bool finite(const Vec<D>& v) {
+  return std::all_of(v.c.begin(), v.c.end(), [](double x) { return std::isfinite(x); });
+}
 
 // Every element finite, and positive where asked.
 template <class T>
@@ -22,8 +25,9 @@ Broken check_values(const std::vector<T>& values, const char* field, bool positi
   return std::nullopt;
 }
 
-Broken check_bodies(const Packing<2>& packing) {
-  const Bodies<2>& b = packing.bodies;
+template <int D>
+Broken check_bodies(const Packing<D>& packing) {
+  const Bodies<D>& b = packing.bodies;
   const std::size_t n = b.size();
   for (const std::size_t size :
        {b.position.size(), b.velocity.size(), b.spin.size(), b.radius.size(), b.mass.size(), b.inertia.size()})
@@ -39,28 +43,29 @@ Broken check_bodies(const Packing<2>& packing) {
   if (auto f = check_values(b.mass, "particles/grains/mass", true)) return f;
   if (auto f = check_values(b.inertia, "particles/grains/inertia", true)) return f;
   if (packing.cell)
-    for (int k = 0; k < 2; ++k)
+    for (int k = 0; k < D; ++k)
       if (!(packing.cell->length[k] > 0) || !std::isfinite(packing.cell->length[k]))
-        return StateFault{"particles/grains/box/edges", "an edge is not positive"};
+        return StateFault{"particles/grains/box/edges", "an edge is not positive and finite"};
   return std::nullopt;
 }
 
 template <class Pair>
 bool names_two_bodies(const Pair& pair, std::size_t n) {
   const auto in = [n](std::int32_t k) { return k >= 0 && static_cast<std::size_t>(k) < n; };
-  return in(pair.i) && in(pair.j) && (pair.i != pair.j || pair.shift != ImageShift<2>{});
+  return in(pair.i) && in(pair.j) && (pair.i != pair.j || pair.shift != decltype(pair.shift){});
 }
 
-Broken check_links(const Packing<2>& packing) {
+template <int D>
+Broken check_links(const Packing<D>& packing) {
   for (std::size_t k = 0; k < packing.links.size(); ++k) {
-    const Link<2>& l = packing.links[k];
+    const Link<D>& l = packing.links[k];
     const std::string which = "link " + std::to_string(k);
     if (!names_two_bodies(l, packing.bodies.size())) return StateFault{"links/i", which + " does not join two grains"};
-    if (!packing.cell && l.shift != ImageShift<2>{})
+    if (!packing.cell && l.shift != ImageShift<D>{})
       return StateFault{"links/shift", which + " crosses a cell that is not there"};
     if (l.kind > LinkKind::distant) return StateFault{"links/kind", which + " has an unknown kind"};
-    for (const double x : {l.gap, l.normal_force, l.tangential_force, l.moment})
-      if (!finite(x)) return StateFault{"links", which + " has a gap, force or moment that is not a finite number"};
+    if (!finite(l.gap) || !finite(l.normal_force) || !finite(l.tangential_force) || !finite(l.moment))
+      return StateFault{"links", which + " has a gap, force or moment that is not a finite number"};
   }
   return std::nullopt;
 }
@@ -104,9 +109,16 @@ Broken check_numbers(const State& s) {
 
 }  // namespace
 
+template <int D>
+std::optional<StateFault> packing_fault(const Packing<D>& packing) {
+  if (auto f = check_bodies(packing)) return f;
+  return check_links(packing);
+}
+template std::optional<StateFault> packing_fault(const Packing<2>&);
+template std::optional<StateFault> packing_fault(const Packing<3>&);
+
 std::optional<StateFault> state_fault(const State& state) {
-  if (auto f = check_bodies(state.packing)) return f;
-  if (auto f = check_links(state.packing)) return f;
+  if (auto f = packing_fault(state.packing)) return f;
   if (auto f = check_memory(state.memory, state.packing.bodies.size())) return f;
   return check_numbers(state);
 }

@@ -13,6 +13,8 @@ struct StateFault {
 };
 
 // The first broken rule, if any.
+template <int D>
+std::optional<StateFault> packing_fault(const Packing<D>& packing);
 std::optional<StateFault> state_fault(const State& state);
 
 }  // namespace isostat

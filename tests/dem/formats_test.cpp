@@ -275,6 +275,26 @@ TEST(PackingFile, CellOfOtherUnitsIsRefused) {
   EXPECT_THAT(faults_of(dir / "g.csv", reading), HasSubstr("1e8 cells away"));
 }
 
+// What can be read can be kept as a state: squares of the lengths are numbers, and the cell has a size.
+TEST(PackingFile, LengthsBeyondTheNumbersAreRefused) {
+  Directory dir;
+  const auto faults = [&](const std::string& name, const std::string& text) {
+    write_text_files({{dir / name, text}});
+    return faults_of(dir / name);
+  };
+  EXPECT_THAT(faults("g.csv", "id,x,y,r\n1,0,0,1e-200\n2,1,0,1e-201\n"), HasSubstr("inertia"));
+  EXPECT_THAT(faults("g.csv", "id,x,y,z,r\n1,0,0,1,1e-200\n"), HasSubstr("inertia"));
+  EXPECT_THAT(faults("g.csv", "id,x,y,r\n1,0,0,1e300\n2,1,0,1e-300\n"), HasSubstr("check the units"));
+  EXPECT_THAT(faults("g.net", "cell 1e-150 1e-150\ngrain 1 0 0 1e-200\n"), HasSubstr("inertia"));
+  const auto box = [](const std::string& edge) {
+    return "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n" + edge + "\n0 9\n0 9\n" +
+           "ITEM: ATOMS id x y radius\n5 1 1 1\n";
+  };
+  EXPECT_EQ(faults("l.dump", box("0 9")), "accepted");
+  EXPECT_THAT(faults("l.dump", box("0 inf")), HasSubstr("finite"));
+  EXPECT_THAT(faults("l.dump", box("-1e308 1e308")), HasSubstr("finite"));
+}
+
 TEST(PackingFile, IsKnownByItsContent) {
   Directory dir;
   write_text_files({{dir / "state.csv", std::string("\x89HDF\r\n\x1a\n", 8)},

@@ -1,16 +1,13 @@
 // The fuzz targets on the shipped files and deterministic mutations of them: a floor under what libFuzzer explores.
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <functional>
 #include <random>
 
-#include "dem/atomic_file.hpp"
 #include "dem/input_error.hpp"
-#include "dem/network_file.hpp"
 #include "dem/scene_file.hpp"
-#include "dem/state_file.hpp"
 #include "tests/fuzz/fuzz_targets.hpp"
+#include "tests/fuzz/seeds.hpp"
 
 namespace isostat {
 namespace {
@@ -42,6 +39,7 @@ std::string mutated(std::string bytes, std::mt19937_64& engine) {
 }
 
 void run(const std::function<void(std::string_view)>& target, const std::vector<std::string>& corpus, int rounds) {
+  ASSERT_FALSE(corpus.empty());
   std::mt19937_64 engine(20070406);
   for (const std::string& bytes : corpus) {
     ASSERT_NO_THROW(target(bytes));
@@ -52,36 +50,11 @@ void run(const std::function<void(std::string_view)>& target, const std::vector<
   }
 }
 
-constexpr std::size_t kLargest = 4000;  // [bytes] of a file of the corpus
+TEST(Fuzz, Scene) { run(fuzz_scene, scene_seeds(ISOSTAT_DATA), 2000); }
+TEST(Fuzz, Network) { run(fuzz_network, network_seeds(ISOSTAT_DATA), 300); }
+TEST(Fuzz, State) { run(fuzz_state, state_seeds(ISOSTAT_DATA), 50); }
 
-std::vector<std::string> files(const std::string& folder, const std::string& extension) {
-  std::vector<std::string> all;
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(ISOSTAT_DATA) + "/" + folder))
-    if (entry.path().extension() == extension && entry.file_size() < kLargest)
-      all.push_back(read_whole_file(entry.path().string()));
-  EXPECT_FALSE(all.empty());
-  return all;
-}
-
-// The states of the clusters, with a cell and a stage so that every part of the format is there.
-std::vector<std::string> states() {
-  std::vector<std::string> all;
-  for (const std::string& text : files("clusters", ".net")) {
-    State state;
-    state.packing = parse_network<2>(text, "cluster").packing;
-    state.scene.stages.resize(1);
-    const std::size_t n = state.packing.bodies.size();
-    state.memory.half_velocity.resize(n), state.memory.half_spin.resize(n);
-    state.memory.pairs.resize(1);
-    state.memory.pairs[0].j = 1;
-    all.push_back(encode_state(state));
-  }
-  return all;
-}
-
-TEST(Fuzz, Scene) { run(fuzz_scene, files("scenes", ".toml"), 2000); }
-TEST(Fuzz, Network) { run(fuzz_network, files("clusters", ".net"), 300); }
-TEST(Fuzz, State) { run(fuzz_state, states(), 50); }
+TEST(Fuzz, Packing) { run(fuzz_packing, packing_seeds(ISOSTAT_DATA), 30); }
 
 TEST(Fuzz, DeepNesting) {
   std::string dotted, tables, arrays = "seed = ";

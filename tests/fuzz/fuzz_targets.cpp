@@ -1,9 +1,17 @@
 #include "tests/fuzz/fuzz_targets.hpp"
 
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <stdexcept>
 
+#include "dem/formats/csv.hpp"
+#include "dem/formats/dump.hpp"
 #include "dem/input_error.hpp"
 #include "dem/network_file.hpp"
+#include "dem/packing_file.hpp"
 #include "dem/scene_file.hpp"
 #include "dem/scene_text.hpp"
 #include "dem/state_file.hpp"
@@ -13,6 +21,28 @@ namespace {
 
 void require(bool condition, const char* what) {
   if (!condition) throw std::logic_error(what);
+}
+
+// A folder of this process, gone with it.
+class Folder {
+ public:
+  Folder() : path_(std::filesystem::temp_directory_path() / ("isostat-fuzz-" + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(path_);
+  }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::string operator/(const char* name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+void write(const std::string& path, std::string_view bytes) {
+  std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
 }  // namespace
@@ -50,6 +80,30 @@ void fuzz_state(std::string_view bytes) {
   }
   require(decode_state(encode_state(file.state, file.provenance), "again").hash == file.hash,
           "a state changed on rewriting");
+}
+
+void fuzz_packing(std::string_view bytes) {
+  static const Folder folder;
+  const std::string grains = folder / "p";
+  constexpr std::string_view kDivision = "\n%\n";
+  const std::size_t end = bytes.find(kDivision);
+  write(grains, bytes.substr(0, end));
+  for (const std::string& contacts : {contacts_csv_path(grains), links_dump_path(grains)})
+    if (end == std::string_view::npos)
+      std::filesystem::remove(contacts);
+    else
+      write(contacts, bytes.substr(end + kDivision.size()));
+  PackingFile file;
+  try {
+    file = read_packing(grains);
+  } catch (const InputError& error) {
+    require(!error.faults().empty(), "an InputError without a fault");
+    return;
+  }
+  if (file.packing_3d || file.state) return;
+  const std::string image = encode_state(foreign_state(file.packing));
+  require(network_text(decode_state(image, "again").state.packing) == network_text(file.packing),
+          "a packing changed on being kept");
 }
 
 }  // namespace isostat

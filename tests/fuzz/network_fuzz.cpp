@@ -1,4 +1,4 @@
-// libFuzzer entry; build with -DISOSTAT_FUZZ=ON and clang, run as `bin/network_fuzz CORPUS_DIRECTORY`.
+// libFuzzer entry, built with clang and -DISOSTAT_FUZZ=ON and run by .ci/fuzz.
 #include <cstddef>
 #include <cstdint>
 
