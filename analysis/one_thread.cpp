@@ -1,8 +1,9 @@
 #include "analysis/one_thread.hpp"
 
-#include <omp.h>
-
 #include <cstdlib>
+
+// OpenMP 5.0, Sec. 3.2.15, from the GNU runtime that SuiteSparse brings; clang's <omp.h> belongs to another runtime.
+extern "C" void omp_set_max_active_levels(int max_active_levels);
 
 namespace isostat {
 

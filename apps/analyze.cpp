@@ -37,8 +37,8 @@ AnalysisOptions options_of(const Arguments& arguments) {
 // One report an input, and the rows of its long tables, one file for each; faults of all inputs are listed together.
 class Analysis {
  public:
-  Analysis(AnalysisOptions options, std::vector<std::string> only, bool with_tables)
-      : options_(std::move(options)), only_(std::move(only)), with_tables_(with_tables) {}
+  Analysis(const AnalysisOptions& options, std::vector<std::string> only, bool with_tables)
+      : options_(options), only_(std::move(only)), with_tables_(with_tables) {}
 
   void add(const std::string& path) {
     try {

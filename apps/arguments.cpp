@@ -126,7 +126,7 @@ std::optional<long long> Arguments::integer(std::string_view name, long long low
 
 std::optional<std::string> Arguments::choice(std::string_view name,
                                              std::initializer_list<std::string_view> choices) const {
-  const auto text = value(name);
+  auto text = value(name);
   if (!text || std::find(choices.begin(), choices.end(), *text) != choices.end()) return text;
   std::string list;
   for (const std::string_view c : choices) list += (list.empty() ? "" : ", ") + std::string(c);

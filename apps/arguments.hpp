@@ -11,7 +11,7 @@ namespace isostat {
 struct OptionSpec {
   std::string_view name;             // with its dashes: "--json", "-o"
   std::string_view value = "VALUE";  // placeholder of its value; empty: a switch
-  std::string_view help = "";        // one line
+  std::string_view help{};           // one line
   bool repeats = false;              // may be given several times
 };
 

@@ -19,7 +19,7 @@ constexpr double kTrendMemory = 10.0;  // [s] the decline is measured over the l
 
 std::string clock_text(double seconds) {
   if (!(seconds >= 0) || seconds > 99 * 3600.0) return "--:--";
-  const int s = static_cast<int>(seconds + 0.5);
+  const int s = static_cast<int>(std::lround(seconds));
   char text[32];
   if (s < 3600)
     std::snprintf(text, sizeof text, "%02d:%02d", s / 60, s % 60);

@@ -29,7 +29,6 @@ SceneField in(Scene& scene, std::size_t stage) {
 SceneField seed_field(Scene& scene, std::size_t) { return &scene.seed; }
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr SceneRange any{};
 constexpr SceneRange positive{0, kInfinity, true, false};
 constexpr SceneRange not_negative{0, kInfinity, false, false};
 constexpr SceneRange from(double low, double high) { return {low, high, false, false}; }

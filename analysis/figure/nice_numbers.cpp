@@ -59,7 +59,7 @@ RichText number_text(double x, int digits) {
     if (mantissa.back() == '.') mantissa.pop_back();
   }
   const std::string power = (exponent < 0 ? "\u2212" : "") + std::to_string(std::abs(exponent));
-  const RichText ten = RichText{{"10", false, 0}, {power, false, 1}};
+  RichText ten = RichText{{"10", false, 0}, {power, false, 1}};
   if (mantissa == "1") return ten;
   if (mantissa == "-1") return plain("\u2212") + ten;
   return with_minus(mantissa + "\u2009\u00d7\u2009") + ten;

@@ -14,7 +14,8 @@ constexpr double kBar = 0.16, kSmallestBar = 36;                             // 
 
 }  // namespace
 
-PackingPicture::PackingPicture(const Packing<2>& packing, std::unique_ptr<PictureContent> content, RichText length_unit)
+PackingPicture::PackingPicture(const Packing<2>& packing, std::unique_ptr<PictureContent> content,
+                               const RichText& length_unit)
     : content_(std::move(content)), pen_(packing, content_->margin(packing)) {
   PictureFrame& frame = pen_.frame();
   const Rect box = frame.box();

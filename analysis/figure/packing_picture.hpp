@@ -14,7 +14,7 @@ class PackingPicture {
  public:
   // Keeps a reference to the packing. length_unit: of the scale bar, may be empty. Throws std::invalid_argument for a
   // packing without bodies.
-  PackingPicture(const Packing<2>& packing, std::unique_ptr<PictureContent> content, RichText length_unit = {});
+  PackingPicture(const Packing<2>& packing, std::unique_ptr<PictureContent> content, const RichText& length_unit = {});
   Vec2 size() const { return size_; }  // [pt] of the page
   void draw(Canvas& canvas) const;
 

@@ -28,7 +28,9 @@ void PicturePen::disks(Canvas& canvas, const std::vector<std::size_t>& style, co
 
 void PicturePen::links(Canvas& canvas, const std::vector<DrawnLink>& links, const Color& color) const {
   std::vector<SegmentMark> marks;
-  for (const auto& [link, width] : links) {
+  for (const DrawnLink& drawn : links) {
+    const Link<2>* link = drawn.link;
+    const double width = drawn.width;  // [pt] no structured binding: clang 14 captures none in a lambda
     const Vec2 from = frame_.wrap(packing_.bodies.position[static_cast<std::size_t>(link->i)]);
     const Vec2 to = from + frame_.branch(packing_, *link);
     const double half = width / (2 * frame_.scale());

@@ -84,7 +84,7 @@ RunRecord make_state(const StudyRun& run, bool tell_progress) {
 
 std::optional<RunRecord> settled_record(const StudyRun& run) {
   if (!std::filesystem::exists(run.state())) return std::nullopt;
-  if (const auto record = read_record(run.record());
+  if (auto record = read_record(run.record());
       record && record->hash == state_digest(run.state()).hash && record->status != RunStatus::pending)
     return record;
   const RunRecord record = adopted(read_state(run.state()));

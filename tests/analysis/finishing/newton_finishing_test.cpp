@@ -120,15 +120,14 @@ TEST(NewtonFinishing, EndsWhereTheSolverEnds) {
     }
 }
 
-// The load is taken back by a third: contacts open, springs slide back, and the springs know where they came from.
-TEST(NewtonFinishing, ContactsOpenAndSlideWhileItSettles) {
+// The load is taken back by two fifths: contacts open, and the springs of the others know where they came from.
+TEST(NewtonFinishing, ContactsOpenWhileItSettles) {
   State s = ringing(scene_of(Finish::none, false, 0.0), 3, 60);
   ASSERT_TRUE(NewtonFinishing().settle(s, request_for(s, 1.0)).settled);
   const auto before = by_ids(s);
   s.imposed_stress = isotropic(0.6);
   s.scene.equilibrium.kinetic_energy = 1e-5;
   const State start = s;
-  int slid = 0;
   const FinishingReport report = NewtonFinishing().settle(s, request_for(s, 0.6));
   ASSERT_TRUE(report.settled) << report.reason;
   EXPECT_LT(report.residual, 2e-10);
@@ -136,8 +135,6 @@ TEST(NewtonFinishing, ContactsOpenAndSlideWhileItSettles) {
   int opened = 0;
   for (const auto& [name, link] : before) opened += !after.contains(name);
   EXPECT_GT(opened, 0);
-  for (const auto& [name, link] : after)
-    slid += yield_margin(link.gap, link.tangential_force, link.moment, s.law).sliding <= kYieldTolerance;
   const auto slow = by_ids(marched_to_rest(start, 0.6, 400));
   int missing = 0;
   double largest = 0, difference = 0;
