@@ -22,18 +22,27 @@ constexpr double kSameChi2 = 1e-6;     // relative to chi^2 (and absolute near a
 constexpr double kWorstLogError = 1;   // a xi known to less than a factor e is not known
 constexpr double kBeyondWindow = 30;   // xi outside [1/(30 k_max), 30/k_min] is not seen by the data
 
-constexpr int kMostSteps = 100;  // of one descent; a good one needs about ten
+constexpr int kMostSteps = 100, kMostRestarts = 10;  // of one descent; a good one needs about ten
 
 // A model of the data in the fitted parameters p = (ln amplitude, d_F, ln xi, constant), the last one optional.
 using Model = std::function<double(double x, const double* p)>;
 
+// Distances that the window can tell: from 1/x_max to 1/x_min for wave numbers, x_min to x_max for distances.
+struct Lengths {
+  double low, high;
+};
+
 struct Problem {
   const Model& model;
   std::span<const double> x, y, sigma;
+  Lengths lengths;
 };
 
-bool allowed(const double* p) {
-  return p[1] > kLowestDimension && p[1] < kHighestDimension && std::abs(p[2]) < 100 && std::abs(p[0]) < 300;
+// A descent may look at a xi beyond the range that is reported as told, but not run away along the flat end of chi^2.
+bool allowed(const double* p, const Lengths& lengths) {
+  const double xi = std::exp(p[2]);
+  return p[1] > kLowestDimension && p[1] < kHighestDimension && std::abs(p[0]) < 300 &&
+         xi > lengths.low / (2 * kBeyondWindow) && xi < lengths.high * (2 * kBeyondWindow);
 }
 
 std::array<double, 4> parameters_of(const gsl_vector* at) {
@@ -46,7 +55,9 @@ int residuals(const gsl_vector* at, void* data, gsl_vector* out) {
   const auto& problem = *static_cast<const Problem*>(data);
   const auto p = parameters_of(at);
   for (std::size_t i = 0; i < problem.x.size(); ++i) {
-    double f = allowed(p.data()) ? (problem.model(problem.x[i], p.data()) - problem.y[i]) / problem.sigma[i] : 1e150;
+    double f = allowed(p.data(), problem.lengths)
+                   ? (problem.model(problem.x[i], p.data()) - problem.y[i]) / problem.sigma[i]
+                   : 1e150;
     if (!std::isfinite(f)) f = 1e150;  // a step that far out is refused by the trust region
     gsl_vector_set(out, i, f);
   }
@@ -81,7 +92,8 @@ struct Optimum {
   double chi2 = kNaN;
 };
 
-// One Levenberg-Marquardt descent. GSL's own verdict of convergence is not used: several starts and chi^2 decide.
+// One Levenberg-Marquardt descent, taken up again where it stalls. GSL's own verdict of convergence is not used:
+// several starts and chi^2 decide.
 Optimum descend(const Problem& problem, const std::vector<double>& start) {
   const std::size_t n = problem.x.size(), parameters = start.size();
   const gsl_multifit_nlinear_parameters settings = gsl_multifit_nlinear_default_parameters();
@@ -93,10 +105,17 @@ Optimum descend(const Problem& problem, const std::vector<double>& start) {
   const auto from = gsl_vector_const_view_array(start.data(), parameters);
   Optimum out;
   if (gsl_multifit_nlinear_init(&from.vector, &fdf, work) == GSL_SUCCESS) {
-    int info = 0;
-    gsl_multifit_nlinear_driver(kMostSteps, 1e-10, 1e-14, 0, nullptr, nullptr, &info, work);
-    out.p.assign(work->x->data, work->x->data + parameters);
-    gsl_blas_ddot(work->f, work->f, &out.chi2);
+    double before = std::numeric_limits<double>::infinity();
+    for (int again = 0; again < kMostRestarts; ++again) {
+      int info = 0;
+      gsl_multifit_nlinear_driver(kMostSteps, 1e-10, 1e-14, 0, nullptr, nullptr, &info, work);
+      out.p.assign(work->x->data, work->x->data + parameters);
+      gsl_blas_ddot(work->f, work->f, &out.chi2);
+      if (!(out.chi2 < before * (1 - kSameChi2))) break;
+      before = out.chi2;
+      const auto at = gsl_vector_const_view_array(out.p.data(), parameters);
+      if (gsl_multifit_nlinear_init(&at.vector, &fdf, work) != GSL_SUCCESS) break;
+    }
     auto* covariance = gsl_matrix_alloc(parameters, parameters);
     gsl_multifit_nlinear_covar(work->J, 0, covariance);
     for (std::size_t a = 0; a < parameters; ++a)
@@ -131,11 +150,6 @@ bool same_place(const Optimum& a, const Optimum& b) {
   }
   return true;
 }
-
-// Distances that the window can tell: from 1/x_max to 1/x_min for wave numbers, x_min to x_max for distances.
-struct Lengths {
-  double low, high;
-};
 
 using Starts = std::vector<std::vector<double>>;
 
@@ -231,8 +245,8 @@ FractalFit fit_intensity(std::span<const double> k, std::span<const double> inte
   if (k.size() != intensity.size() || k.size() != sigma.size())
     throw std::invalid_argument("fit_intensity: as many intensities and sigmas as wave numbers");
   const Model model = intensity_of_parameters;
-  const Problem problem{model, k, intensity, sigma};
   const auto lengths = lengths_of_waves(k);
+  const Problem problem{model, k, intensity, sigma, lengths};
   return fit_from(start_grid(problem, lengths, true), problem, lengths, true);
 }
 
@@ -245,15 +259,17 @@ FractalFit fit_intensity_by_modes(std::span<const double> k, std::span<const dou
   const double floor = intensity.empty() ? 0 : 1e-6 * *std::max_element(intensity.begin(), intensity.end());
   for (std::size_t i = 0; i < k.size(); ++i) sigma[i] = std::max(intensity[i], floor) / std::sqrt(modes[i]);
   // All starts, then the weights of the best optimum and descents from it until both settle, then all starts again.
-  const Problem problem{model, k, intensity, sigma};
   const auto lengths = lengths_of_waves(k);
+  const Problem problem{model, k, intensity, sigma, lengths};
   FractalFit fit = fit_from(start_grid(problem, lengths, true), problem, lengths, true);
-  constexpr int kMostRounds = 60;
+  constexpr int kFreeRounds = 10, kMostRounds = 60;
   for (int round = 0; round < kMostRounds && std::isfinite(fit.chi2); ++round) {
     const double before_d = fit.d_f, before_xi = fit.xi;
-    for (std::size_t i = 0; i < k.size(); ++i)
-      sigma[i] =
+    for (std::size_t i = 0; i < k.size(); ++i) {
+      const double now =
           std::max(fractal_intensity(k[i], fit.d_f, fit.xi, fit.amplitude, fit.constant), floor) / std::sqrt(modes[i]);
+      sigma[i] = round < kFreeRounds ? now : std::sqrt(sigma[i] * now);  // ends a cycle between two fits
+    }
     fit = fit_from({{std::log(fit.amplitude), fit.d_f, std::log(fit.xi), fit.constant}}, problem, lengths, true);
     if (std::abs(fit.d_f - before_d) < kSameOptimum * fit.error[0] &&
         std::abs(fit.xi - before_xi) < kSameOptimum * fit.error[1])
@@ -270,7 +286,7 @@ FractalFit fit_correlation(std::span<const double> r, std::span<const double> ex
   };
   const std::vector<double> sigma(r.size(), 1.0);
   const Lengths lengths = r.empty() ? Lengths{1, 1} : Lengths{r.front(), r.back()};
-  const Problem problem{model, r, excess, sigma};
+  const Problem problem{model, r, excess, sigma, lengths};
   auto fit = fit_from(start_grid(problem, lengths, false), problem, lengths, false);
   const double scatter = std::sqrt(fit.chi2_per_dof());
   for (std::size_t n = 0; n < 3; ++n) fit.error[n] *= scatter;

@@ -80,6 +80,7 @@ TEST(fractal_fit, errors_are_honest_on_random_fields) {
     const auto s = random_field(300, 1.53, 9.3, 0.02, seed);
     const auto fit = fit_intensity_by_modes(s.k, s.intensity, s.modes);
     ASSERT_TRUE(fit.identifiable) << fit.message;
+    EXPECT_EQ(fit.agreeing, fit.starts);
     z2 += std::pow((fit.d_f - 1.53) / fit.error[0], 2) + std::pow((fit.xi - 9.3) / fit.error[1], 2);
     chi2 += fit.chi2_per_dof();
     n += 2;
