@@ -149,7 +149,9 @@ template std::vector<BodyRow<FirstField>> body_rows(const Packing<2>&, NetworkLa
                                                     const FieldGeometry<FirstField>&);
 template std::vector<BodyRow<SecondField>> body_rows(const Packing<2>&, NetworkLaw, bool, const RigidBodies&,
                                                      const FieldGeometry<SecondField>&);
+template std::vector<BodyRow<WideField>> body_rows(const Packing<2>&, NetworkLaw, bool, const RigidBodies&,
+                                                   const FieldGeometry<WideField>&);
 template PrunedNetwork prune(const std::vector<BodyRow<FirstField>>&, std::int32_t, int);
-template PrunedNetwork prune(const std::vector<BodyRow<SecondField>>&, std::int32_t, int);
+template PrunedNetwork prune(const std::vector<BodyRow<WideField>>&, std::int32_t, int);
 
 }  // namespace isostat

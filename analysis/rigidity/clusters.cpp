@@ -11,7 +11,7 @@
 namespace isostat {
 namespace {
 
-using F = FirstField;
+using F = WideField;
 constexpr std::uint64_t kMotionSeed = 0xC1057E5;
 
 std::size_t u(std::int64_t i) { return static_cast<std::size_t>(i); }

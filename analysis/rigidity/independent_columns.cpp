@@ -1,45 +1,129 @@
 #include "analysis/rigidity/independent_columns.hpp"
 
-#include <numeric>
+#include <cmath>
+#include <stdexcept>
 
 #include "analysis/rigidity/reduced_problem.hpp"
 #include "dem/input_error.hpp"
 
 namespace isostat {
+namespace {
 
-// The unknowns of body_rows are V at the origin of the frame and W, those of G the velocity of the centre and w:
-// column w of G is column W plus columns V of the same body, eliminated just before. Likewise peculiar and absolute
-// velocities differ by columns V in the strain columns, which come last. So the same columns depend on earlier ones.
+using F = FirstField;
+
+// One row of a pruned body about its first grain: vx, vy of that grain and its spin. In the field, and in double
+// precision with the arm in units of the radius: there it only says which pivot is large.
+struct PrunedRow {
+  std::array<F, 3> exact{};
+  std::array<double, 3> size{};
+};
+
+class PrunedRows {
+ public:
+  PrunedRows(const Packing<2>& packing, const ReducedProblem<F>& problem, const FieldGeometry<F>& geometry)
+      : packing_(packing), problem_(problem), geometry_(geometry) {}
+
+  PrunedRow about(std::size_t grain, std::int32_t body, const BodyRow<F>& row) const {
+    PrunedRow result;
+    const bool first = row.a == body;
+    result.exact = first ? row.at_a : row.at_b;
+    const FieldVec<F> x = geometry_.placed(grain, problem_.bodies.placement[grain]);
+    // V = v - w z x x, velocity at the origin from that of the grain.
+    result.exact[2] = result.exact[2] + result.exact[0] * x[1] - result.exact[1] * x[0];
+    if (row.component == 2) {
+      result.size = {0, 0, 1 / packing_.bodies.radius[grain]};
+      return result;
+    }
+    const Link<2>& link = packing_.links[static_cast<std::size_t>(row.link)];
+    const auto i = static_cast<std::size_t>(link.i), j = static_cast<std::size_t>(link.j);
+    const Vec2 from = placed(i), back = offset(problem_.bodies.image(link));
+    const Vec2 branch = packing_.bodies.position[j] + offset(link.shift) - packing_.bodies.position[i];
+    const double share = packing_.bodies.radius[i] / (packing_.bodies.radius[i] + packing_.bodies.radius[j]);
+    const Vec2 arm = from + share * branch - (first ? Vec2{} : back) - placed(grain);
+    const Vec2 n = (1 / norm(branch)) * branch, e = row.component == 0 ? n : Vec2{{-n[1], n[0]}};
+    result.size = {e[0], e[1], (arm[0] * e[1] - arm[1] * e[0]) / packing_.bodies.radius[grain]};
+    return result;
+  }
+
+ private:
+  Vec2 offset(const ImageShift<2>& s) const { return packing_.cell ? packing_.cell->offset(s) : Vec2{}; }
+  Vec2 placed(std::size_t grain) const {
+    return packing_.bodies.position[grain] + offset(problem_.bodies.placement[grain]);
+  }
+  const Packing<2>& packing_;
+  const ReducedProblem<F>& problem_;
+  const FieldGeometry<F>& geometry_;
+};
+
+// Columns left without a pivot when the rows are eliminated, largest entry first, nonzero in the field.
+std::array<bool, 3> without_pivot(std::array<PrunedRow, 3> a, std::size_t count, std::size_t dofs) {
+  std::array<bool, 3> none = {true, true, true};
+  for (std::size_t done = 0; done < count; ++done) {
+    std::size_t p = count, pivot = dofs;
+    for (std::size_t k = done; k < count; ++k)
+      for (std::size_t d = 0; d < dofs; ++d)
+        if (none[d] && !a[k].exact[d].is_zero() && (p == count || std::abs(a[k].size[d]) > std::abs(a[p].size[pivot])))
+          p = k, pivot = d;
+    if (p == count) throw std::logic_error("rows of a pruned body depend on each other");
+    none[pivot] = false;
+    std::swap(a[p], a[done]);
+    for (std::size_t k = done + 1; k < count; ++k) {
+      const F factor = a[k].exact[pivot], scale = a[done].exact[pivot];  // fraction-free
+      const double ratio = a[done].size[pivot] != 0 ? a[k].size[pivot] / a[done].size[pivot] : 0;
+      for (std::size_t d = 0; d < dofs; ++d) {
+        a[k].exact[d] = scale * a[k].exact[d] - factor * a[done].exact[d];
+        a[k].size[d] -= ratio * a[done].size[d];
+      }
+    }
+  }
+  return none;
+}
+
+}  // namespace
+
+// A null vector of G is a motion of the contracted bodies, so the columns of one grain in each body are enough. The
+// unknowns of body_rows are V at the origin of the frame and W, those of G the velocity of the centre and w: column w
+// of G is column W plus columns V of the same body, eliminated just before. Likewise peculiar and absolute velocities
+// differ by columns V in the strain columns, which come last. So the same columns depend on earlier ones. Pruned
+// bodies stand first in the order, in the order of their removal, each with its columns sorted by its pivots.
 std::vector<char> dependent_columns(const Packing<2>& packing, NetworkLaw law, bool cell_free) {
   if (cell_free && !packing.cell) throw InputError("command line", 0, "--cell", "free", "the input has no cell");
-  using F = FirstField;
-  const RigidBodies grains = contract_rigid_bodies(packing, NetworkLaw::frictionless);  // no contraction
-  const auto rows = body_rows(packing, law, cell_free, grains, exact_geometry<F>(packing));
+  const ReducedProblem<F> problem = reduce_problem<F>(packing, law, cell_free);
   const DofLayout layout = dof_layout(packing.bodies.size(), law, cell_free);
-  const auto n = static_cast<std::int32_t>(packing.bodies.size());
-  const std::int32_t strain_node = cell_free ? n : -1;
+  std::vector<char> dependent(static_cast<std::size_t>(layout.size()), 0);
+  std::vector<std::size_t> column_of_body(static_cast<std::size_t>(problem.bodies.count));
+  for (std::size_t i = packing.bodies.size(); i-- > 0;)
+    column_of_body[static_cast<std::size_t>(problem.bodies.body_of[i])] = i * static_cast<std::size_t>(layout.per_body);
 
-  std::vector<std::int8_t> dofs(packing.bodies.size(), static_cast<std::int8_t>(layout.per_body));
-  if (cell_free) dofs.push_back(2);
-  std::vector<std::pair<std::int32_t, std::int32_t>> edges;
-  std::vector<FieldRow<F>> field;
-  edges.reserve(rows.size()), field.reserve(rows.size());
-  for (const auto& row : rows) {
-    FieldRow<F> f;
-    f.node[0] = row.a, f.value[0] = row.at_a;
-    if (row.b != row.a) f.node[1] = row.b, f.value[1] = row.at_b;
-    edges.push_back({row.a, row.b});
-    if (cell_free && !(row.at_strain[0].is_zero() && row.at_strain[1].is_zero())) {
-      f.node[2] = strain_node, f.value[2] = {row.at_strain[0], row.at_strain[1], F{}};
-      edges.push_back({row.a, strain_node});
-      edges.push_back({row.b, strain_node});
-    }
-    field.push_back(f);
+  const auto per_body = static_cast<std::size_t>(layout.per_body);
+  const FieldGeometry<F> geometry = exact_geometry<F>(packing);
+  const PrunedRows rows_about(packing, problem, geometry);
+  for (const PrunedBody& pruned : problem.network.pruned) {
+    const std::size_t column = column_of_body[static_cast<std::size_t>(pruned.body)];
+    std::array<PrunedRow, 3> mine;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(pruned.count); ++k)
+      mine[k] =
+          rows_about.about(column / per_body, pruned.body, problem.rows[static_cast<std::size_t>(pruned.rows[k])]);
+    const auto none = without_pivot(mine, static_cast<std::size_t>(pruned.count), per_body);
+    for (std::size_t d = 0; d < per_body; ++d) dependent[column + d] = none[d];
   }
-  const EliminationTree tree = elimination_tree(static_cast<std::int32_t>(dofs.size()), edges, strain_node);
+  for (std::int32_t b : problem.network.bodies)  // without rows: free
+    if (problem.node_of_body[static_cast<std::size_t>(b)] < 0)
+      for (std::size_t d = 0; d < per_body; ++d) dependent[column_of_body[static_cast<std::size_t>(b)] + d] = 1;
+
+  const std::vector<FieldRow<F>> rows = field_rows(problem, problem.rows);
   for (std::uint64_t attempt = 0;; ++attempt) {
     try {
-      return ModularLdlt<F>(tree, dofs, field, 77 + attempt, false).dependent();
+      const ModularLdlt<F> ldlt(problem.tree, problem.dofs, rows, 77 + attempt, false);
+      for (std::size_t n = 0; n < problem.body_of_node.size(); ++n) {
+        const std::int32_t body = problem.body_of_node[n];
+        const std::size_t column = body < 0 ? static_cast<std::size_t>(layout.strain_column(0))
+                                            : column_of_body[static_cast<std::size_t>(body)];
+        const auto entry = static_cast<std::size_t>(ldlt.offset(static_cast<std::int32_t>(n)));
+        for (std::size_t d = 0; d < static_cast<std::size_t>(problem.dofs[n]); ++d)
+          dependent[column + d] = ldlt.dependent()[entry + d];
+      }
+      return dependent;
     } catch (const RandomizationFailed&) {
       if (attempt == 3) throw;
     }

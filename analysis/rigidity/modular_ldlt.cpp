@@ -1,108 +1,9 @@
 #include "analysis/rigidity/modular_ldlt.hpp"
 
-#include <algorithm>
+#include "analysis/rigidity/modular_front.hpp"
 
 namespace isostat {
 namespace {
-
-constexpr std::int32_t kPanel = 32;  // pivots in a panel: a dot product over one stays below F::kDeferred terms
-
-// A front: dense lower triangle, row i at a[i * size], its first `pivots` columns are fully summed.
-template <class F>
-class Front {
- public:
-  void reset(std::int32_t size) {
-    size_ = size;
-    a_.assign(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), F{});
-  }
-  F* row(std::int32_t i) { return a_.data() + static_cast<std::size_t>(i) * static_cast<std::size_t>(size_); }
-  std::int32_t size() const { return size_; }
-  void add(std::int32_t i, std::int32_t j, F v) {
-    F& target = i >= j ? row(i)[j] : row(j)[i];
-    target = target + v;
-  }
-
-  // Eliminates the first `pivots` columns; the strict lower triangle of them becomes L, the trailing triangle the Schur
-  // complement. inverse[k] = 1 / D_k, 0 for a dependent column. Returns the number of nonzero pivots.
-  std::int32_t eliminate(std::int32_t pivots, std::vector<F>& inverse) {
-    std::int32_t rank = 0;
-    inverse.assign(static_cast<std::size_t>(pivots), F{});
-    for (std::int32_t p0 = 0; p0 < pivots; p0 += kPanel) {
-      const std::int32_t p1 = std::min(p0 + kPanel, pivots), width = p1 - p0;
-      scaled_.assign(static_cast<std::size_t>(size_) * kPanel, F{});  // D L of this panel
-      for (std::int32_t k = p0; k < p1; ++k) {
-        const std::int32_t done = k - p0;
-        const F* qk = scaled(k);
-        for (std::int32_t i = k; i < size_; ++i) {
-          F* r = row(i);
-          r[k] = r[k] - dot(r + p0, qk, done);
-        }
-        const F d = row(k)[k];
-        if (d.is_zero()) {
-          for (std::int32_t i = k + 1; i < size_; ++i)
-            if (!row(i)[k].is_zero()) throw RandomizationFailed();
-          continue;
-        }
-        ++rank;
-        const F inverse_d = d.inverse();
-        inverse[static_cast<std::size_t>(k)] = inverse_d;
-        for (std::int32_t i = k + 1; i < size_; ++i) {
-          F* r = row(i);
-          scaled(i)[done] = r[k];
-          r[k] = r[k] * inverse_d;
-        }
-      }
-      update_trailing(p0, p1, width);
-    }
-    return rank;
-  }
-
- private:
-  F* scaled(std::int32_t i) { return scaled_.data() + static_cast<std::size_t>(i) * kPanel; }
-
-  static F dot(const F* a, const F* b, std::int32_t n) {
-    Wide s = 0;
-    for (std::int32_t t = 0; t < n; ++t) s += static_cast<Wide>(a[t].value) * b[t].value;
-    return F(F::reduce(s));
-  }
-
-  // A_ij -= sum over the panel of L_it (D L)_jt, two rows by two columns at a time.
-  void update_trailing(std::int32_t p0, std::int32_t p1, std::int32_t width) {
-    static_assert(kPanel < F::kDeferred);
-    for (std::int32_t i = p1; i < size_; i += 2) {
-      F* r0 = row(i);
-      const bool two = i + 1 < size_;
-      F* r1 = two ? row(i + 1) : r0;
-      const F *l0 = r0 + p0, *l1 = r1 + p0;
-      const std::int32_t end = two ? i + 2 : i + 1;
-      std::int32_t j = p1;
-      for (; j + 1 < end; j += 2) {
-        const F *q0 = scaled(j), *q1 = scaled(j + 1);
-        Wide s00 = 0, s01 = 0, s10 = 0, s11 = 0;
-        for (std::int32_t t = 0; t < width; ++t) {
-          const std::uint64_t x0 = l0[t].value, x1 = l1[t].value, y0 = q0[t].value, y1 = q1[t].value;
-          s00 += static_cast<Wide>(x0) * y0;
-          s01 += static_cast<Wide>(x0) * y1;
-          s10 += static_cast<Wide>(x1) * y0;
-          s11 += static_cast<Wide>(x1) * y1;
-        }
-        r0[j] = r0[j] - F(F::reduce(s00));
-        if (j + 1 <= i) r0[j + 1] = r0[j + 1] - F(F::reduce(s01));
-        if (two) {
-          r1[j] = r1[j] - F(F::reduce(s10));
-          r1[j + 1] = r1[j + 1] - F(F::reduce(s11));
-        }
-      }
-      for (; j < end; ++j) {
-        if (j <= i) r0[j] = r0[j] - dot(l0, scaled(j), width);
-        if (two) r1[j] = r1[j] - dot(l1, scaled(j), width);
-      }
-    }
-  }
-
-  std::int32_t size_ = 0;
-  std::vector<F> a_, scaled_;
-};
 
 // What a supernode passes to its parent: the Schur complement on the nodes below, packed lower triangle.
 template <class F>
@@ -144,7 +45,7 @@ ModularLdlt<F>::ModularLdlt(const EliminationTree& tree, const std::vector<std::
     if (const auto p = tree.supernodes[s].parent; p >= 0)
       sibling[s] = first_child[u(p)], first_child[u(p)] = static_cast<std::int32_t>(s);
 
-  Front<F> front;
+  ModularFront<F> front;
   std::vector<Update<F>> updates(tree.supernodes.size());
   std::vector<std::int32_t> local(nodes, 0);  // position -> first row of that node in the current front
   std::vector<std::int32_t> map;
@@ -267,5 +168,6 @@ std::vector<F> ModularLdlt<F>::solve(std::vector<F> b) const {
 
 template class ModularLdlt<FirstField>;
 template class ModularLdlt<SecondField>;
+template class ModularLdlt<WideField>;
 
 }  // namespace isostat

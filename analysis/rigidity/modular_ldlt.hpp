@@ -7,18 +7,12 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <stdexcept>
 #include <vector>
 
 #include "analysis/rigidity/elimination_tree.hpp"
-#include "analysis/rigidity/prime_field.hpp"
+#include "analysis/rigidity/modular_front.hpp"
 
 namespace isostat {
-
-class RandomizationFailed : public std::runtime_error {
- public:
-  RandomizationFailed() : std::runtime_error("a zero pivot with a nonzero column: draw other weights") {}
-};
 
 // One row of G: up to three blocks, each on the dofs of one node.
 template <class F>
@@ -64,5 +58,6 @@ class ModularLdlt {
 
 extern template class ModularLdlt<FirstField>;
 extern template class ModularLdlt<SecondField>;
+extern template class ModularLdlt<WideField>;
 
 }  // namespace isostat

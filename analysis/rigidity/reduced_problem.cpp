@@ -64,5 +64,6 @@ ReducedProblem<F> reduce_problem(const Packing<2>& packing, NetworkLaw law, bool
 }
 
 template ReducedProblem<FirstField> reduce_problem(const Packing<2>&, NetworkLaw, bool);
+template ReducedProblem<WideField> reduce_problem(const Packing<2>&, NetworkLaw, bool);
 
 }  // namespace isostat

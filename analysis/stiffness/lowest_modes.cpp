@@ -5,16 +5,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace isostat {
 namespace {
 
 constexpr Eigen::Index kMostRestarts = 1000;
-constexpr double kLanczosTolerance = 1e-11;  // relative, of the eigenvalues 1 / lambda
-// u^T A u is off by the square of the error of u and by eps |A|, 1 / theta by the error of the solve. The first is
-// better as long as eps |A| is below 1e-8 of it.
-constexpr double kRayleighFrom = 1e-8;
+// Of the Ritz vectors, relative; the Rayleigh quotients are off by its square.
+constexpr double kLanczosTolerance = 1e-9;
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr double kFirstGuess = 1e-4;  // lambda / |A| that the first shift is made for
+constexpr double kGuessHolds = 1e-2;  // of the guess: softer modes ask for a smaller shift
+constexpr int kMostShifts = 3;
+constexpr double kNoiseShare = 1e-2;  // of the wanted end of the spectrum: image of the null space by rounding
 
 // M^-1/2 A M^-1/2, whose null vectors are M^1/2 times those of A: the same columns depend on the same others.
 SymmetricMatrix mass_scaled(SymmetricMatrix a, const std::vector<double>& mass) {
@@ -25,16 +29,31 @@ SymmetricMatrix mass_scaled(SymmetricMatrix a, const std::vector<double>& mass) 
   return a;
 }
 
-// Operator type of Spectra.
-struct ApplyPseudoInverse {
+// T = B^-1 A B^-1 with B = A + sigma, operator type of Spectra. To an eigenvalue lambda of A belongs
+// lambda / (lambda + sigma)^2: the null space of A goes to zero without being known, modes with lambda well above
+// sigma go to 1 / lambda, and down to sigma^2 / lambda_k even softer ones stand before the k-th.
+class FilteredInverse {
+ public:
   using Scalar = double;
-  const PseudoInverse& inverse;
-  Eigen::Index rows() const { return static_cast<Eigen::Index>(inverse.size()); }
+  FilteredInverse(const SymmetricMatrix& a, double sigma, SparseCholesky::Form form)
+      : a_(a), factor_(shifted(a, sigma), form) {}
+  Eigen::Index rows() const { return a_.size; }
   Eigen::Index cols() const { return rows(); }
   void perform_op(const double* x, double* y) const {
-    const std::vector<double> result = inverse.apply(std::vector<double>(x, x + inverse.size()));
+    const std::vector<double> result = factor_.solve(range_part(std::vector<double>(x, x + a_.size)));
     std::copy(result.begin(), result.end(), y);
   }
+  // A B^-1 x, without the share of x in null A.
+  std::vector<double> range_part(const std::vector<double>& x) const { return a_.multiply(factor_.solve(x)); }
+
+ private:
+  static SymmetricMatrix shifted(SymmetricMatrix a, double sigma) {
+    for (std::size_t c = 0; c < static_cast<std::size_t>(a.size); ++c)  // the diagonal stands first in each column
+      a.value[static_cast<std::size_t>(a.start[c])] += sigma;
+    return a;
+  }
+  const SymmetricMatrix& a_;
+  SparseCholesky factor_;
 };
 
 LowestModes dense_modes(const SymmetricMatrix& a, std::size_t null_dimension, int count, bool vectors) {
@@ -78,35 +97,47 @@ class RayleighPair {
   double value_ = 0, residual_ = 0;
 };
 
-LowestModes lanczos_modes(const SymmetricMatrix& a, const std::vector<char>& dependent, std::size_t rank, int count,
-                          bool definite, bool vectors) {
-  const PseudoInverse inverse(a, dependent,
-                              definite ? SparseCholesky::Form::definite : SparseCholesky::Form::indefinite);
-  ApplyPseudoInverse op{inverse};
-  const auto wanted = std::min(static_cast<std::size_t>(count), rank - 1);
-  const auto subspace = std::min(std::max(2 * wanted + 10, std::size_t{24}), rank);
-  Spectra::SymEigsSolver<ApplyPseudoInverse> solver(op, static_cast<Eigen::Index>(wanted),
-                                                    static_cast<Eigen::Index>(subspace));
+// The modes nearest to zero seen through one shift, and the largest of their |lambda|.
+LowestModes modes_at_shift(const SymmetricMatrix& a, double sigma, std::size_t wanted, std::size_t rank, bool definite,
+                           bool vectors) {
+  FilteredInverse op(a, sigma, definite ? SparseCholesky::Form::definite : SparseCholesky::Form::indefinite);
+  const auto subspace = std::min(std::max(3 * wanted + 20, std::size_t{40}), rank);
+  Spectra::SymEigsSolver<FilteredInverse> solver(op, static_cast<Eigen::Index>(wanted),
+                                                 static_cast<Eigen::Index>(subspace));
   std::vector<double> start(static_cast<std::size_t>(a.size));
   for (std::size_t i = 0; i < start.size(); ++i) start[i] = std::sin(1.0 + 0.7 * static_cast<double>(i));
-  inverse.project_out_null_space(start);
+  start = op.range_part(start);
   solver.init(start.data());
   const auto found = solver.compute(Spectra::SortRule::LargestMagn, kMostRestarts, kLanczosTolerance);
   LowestModes modes;
   modes.converged = solver.info() == Spectra::CompInfo::Successful;
-  const auto values = solver.eigenvalues();
   const Eigen::MatrixXd eigenvectors = solver.eigenvectors(found);
-  const double size_of_a = *std::max_element(a.value.begin(), a.value.end());
-  for (Eigen::Index k = 0; k < values.size(); ++k) {
+  for (Eigen::Index k = 0; k < eigenvectors.cols(); ++k) {
     RayleighPair pair(a, eigenvectors.col(k));
-    // Where independent columns are nearly dependent, N is off and u has a share of the null space, which A removes.
-    const std::vector<double> product = a.multiply(inverse.apply(pair.vector()));
-    const RayleighPair polished(a, Eigen::Map<const Eigen::VectorXd>(product.data(), a.size));
+    const std::vector<double> filtered = op.range_part(pair.vector());
+    const RayleighPair polished(a, Eigen::Map<const Eigen::VectorXd>(filtered.data(), a.size));
     if (polished.residual() < pair.residual()) pair = polished;
-    modes.value.push_back(std::abs(pair.value()) > kRayleighFrom * size_of_a ? pair.value() : 1 / values[k]);
+    modes.value.push_back(pair.value());
     if (vectors) modes.vector.push_back(pair.vector());
   }
   return modes;
+}
+
+// Rounding makes T n ~ eps |A| / sigma^2 of a null vector n, where zero is meant; the shift keeps that at a small share
+// of the wanted 1 / lambda. The softest modes that are seen then stand at lambda ~ eps |A| / share, where double
+// precision ends anyway.
+LowestModes lanczos_modes(const SymmetricMatrix& a, std::size_t rank, int count, bool definite, bool vectors) {
+  const auto wanted = std::min(static_cast<std::size_t>(count), rank - 1);
+  const double norm = a.maximum_norm();
+  double guess = kFirstGuess * norm;
+  for (int shift = 1;; ++shift) {
+    LowestModes modes =
+        modes_at_shift(a, std::sqrt(kEpsilon / kNoiseShare * norm * guess), wanted, rank, definite, vectors);
+    double largest = 0;
+    for (double lambda : modes.value) largest = std::max(largest, std::abs(lambda));
+    if (!modes.converged || largest >= kGuessHolds * guess || shift == kMostShifts) return modes;
+    guess = std::max(largest, kEpsilon / kNoiseShare * norm);
+  }
 }
 
 // Columns that A couples, directly or through others: the spectrum of A is the union of those of its blocks. A gas is
@@ -156,14 +187,13 @@ LowestModes lowest_modes(const SymmetricMatrix& a, const std::vector<char>& depe
   std::vector<std::vector<std::size_t>> columns_of;  // by mode in `all`: where its entries stand
   std::vector<std::int32_t> number(static_cast<std::size_t>(a.size), -1);
   for (const auto& columns : coupled_blocks(scaled)) {
-    std::vector<char> dependent_here;
-    for (std::size_t c : columns) dependent_here.push_back(dependent[c]);
-    const auto null_dimension = static_cast<std::size_t>(std::count(dependent_here.begin(), dependent_here.end(), 1));
+    std::size_t null_dimension = 0;
+    for (std::size_t c : columns) null_dimension += dependent[c] != 0;
     const std::size_t rank = columns.size() - null_dimension;
     if (rank == 0) continue;
     const SymmetricMatrix block = block_matrix(scaled, columns, number);
     LowestModes here = block.size <= kDenseSize ? dense_modes(block, null_dimension, count, vectors)
-                                                : lanczos_modes(block, dependent_here, rank, count, definite, vectors);
+                                                : lanczos_modes(block, rank, count, definite, vectors);
     all.converged = all.converged && here.converged;
     all.value.insert(all.value.end(), here.value.begin(), here.value.end());
     for (auto& v : here.vector) all.vector.push_back(std::move(v)), columns_of.push_back(columns);

@@ -21,18 +21,6 @@ double largest(const std::vector<double>& v) {
   return m;
 }
 
-// Largest row sum of magnitudes.
-double maximum_norm(const SymmetricMatrix& a) {
-  std::vector<double> sum(static_cast<std::size_t>(a.size), 0.0);
-  for (std::size_t c = 0; c < sum.size(); ++c)
-    for (auto e = static_cast<std::size_t>(a.start[c]); e < static_cast<std::size_t>(a.start[c + 1]); ++e) {
-      const auto r = static_cast<std::size_t>(a.row[e]);
-      sum[r] += std::abs(a.value[e]);
-      if (r != c) sum[c] += std::abs(a.value[e]);
-    }
-  return largest(sum);
-}
-
 std::vector<double> residual(const SymmetricMatrix& a, const std::vector<double>& b, const std::vector<double>& x) {
   std::vector<double> r = a.multiply(x);
   for (std::size_t i = 0; i < r.size(); ++i) r[i] = b[i] - r[i];
@@ -44,7 +32,7 @@ std::vector<double> residual(const SymmetricMatrix& a, const std::vector<double>
 PseudoInverse::PseudoInverse(const SymmetricMatrix& a, const std::vector<char>& dependent, SparseCholesky::Form form)
     : matrix_(a),
       independent_(complement(dependent)),
-      norm_(maximum_norm(a)),
+      norm_(a.maximum_norm()),
       inner_(principal_submatrix(a, independent_)),
       factor_(inner_, form) {
   for (std::size_t c = 0; c < dependent.size(); ++c)
@@ -66,12 +54,21 @@ std::vector<double> PseudoInverse::scatter(const std::vector<double>& x) const {
   return y;
 }
 
+// Iterative refinement until the residual is rounding, |b - A x| <= 8 eps |A| |x| in the maximum norm, or stops
+// halving. Which columns are independent is decided exactly and not by their length, so A_ii may be ill conditioned
+// (1e13 in networks of 600 columns) where A on its range is not, and one step is then too few.
 std::vector<double> PseudoInverse::solve(const std::vector<double>& b) const {
   const std::vector<double> inner = gather(b);
   std::vector<double> x = factor_.solve(inner);
-  refine(
-      x, [&](const std::vector<double>& at) { return residual(inner_, inner, at); },
-      [&](const std::vector<double>& r) { return factor_.solve(r); });
+  double before = std::numeric_limits<double>::infinity();
+  for (int step = 0; step < kMostRefinements; ++step) {
+    const std::vector<double> r = residual(inner_, inner, x);
+    const double now = largest(r);
+    if (now <= 8 * std::numeric_limits<double>::epsilon() * norm_ * largest(x) || !(now < 0.5 * before)) break;
+    before = now;
+    const std::vector<double> correction = factor_.solve(r);
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] += correction[i];
+  }
   return scatter(x);
 }
 
@@ -82,42 +79,6 @@ std::vector<double> PseudoInverse::null_vector(std::size_t dependent_column) con
   for (double& v : x) v = -v;
   x[dependent_column] = 1;
   return x;
-}
-
-void PseudoInverse::project_out_null_space(std::vector<double>& x) const {
-  if (null_.empty()) return;
-  if (!null_space_) null_space_.emplace(size(), null_.size(), [&](std::size_t k) { return null_vector(null_[k]); });
-  null_space_->project_out(x);
-}
-
-std::vector<double> PseudoInverse::apply(std::vector<double> b) const {
-  project_out_null_space(b);
-  const auto shortest = [&](const std::vector<double>& r) {
-    std::vector<double> x = scatter(factor_.solve(gather(r)));
-    project_out_null_space(x);
-    return x;
-  };
-  // The solution with zeros at the dependent columns can be far longer than the shortest one: refine that.
-  std::vector<double> x = shortest(b);
-  refine(
-      x, [&](const std::vector<double>& at) { return residual(matrix_, b, at); }, shortest);
-  return x;
-}
-
-// Iterative refinement until the residual is rounding, |b - A x| <= 8 eps |A| |x| in the maximum norm, or stops
-// halving. Which columns are independent is decided exactly and not by their length, so A_ii may be ill conditioned
-// (1e13 in networks of 600 columns) where A on its range is not, and one step is then too few.
-template <class Residual, class Solve>
-void PseudoInverse::refine(std::vector<double>& x, const Residual& residual_at, const Solve& solve_for) const {
-  double before = std::numeric_limits<double>::infinity();
-  for (int step = 0; step < kMostRefinements; ++step) {
-    const std::vector<double> r = residual_at(x);
-    const double now = largest(r);
-    if (now <= 8 * std::numeric_limits<double>::epsilon() * norm_ * largest(x) || !(now < 0.5 * before)) return;
-    before = now;
-    const std::vector<double> correction = solve_for(r);
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] += correction[i];
-  }
 }
 
 }  // namespace isostat

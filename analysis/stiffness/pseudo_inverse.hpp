@@ -1,11 +1,9 @@
-// Pseudo-inverse of a singular symmetric matrix A whose null space is that of G, known exactly: columns that depend on
-// others are fixed at zero (independent_columns.hpp), CHOLMOD solves for the rest, and the null space is projected out.
-// No threshold decides what is singular.
+// Solutions of A x = b and null vectors for a singular symmetric matrix A whose null space is that of G, known exactly:
+// columns that depend on others are fixed at zero (independent_columns.hpp), CHOLMOD solves for the rest. No threshold
+// decides what is singular.
 #pragma once
-#include <optional>
 #include <vector>
 
-#include "analysis/stiffness/null_space.hpp"
 #include "analysis/stiffness/sparse_cholesky.hpp"
 
 namespace isostat {
@@ -27,17 +25,9 @@ class PseudoInverse {
   // Null vectors of A, one for each dependent column d: 1 at d, 0 at the other dependent columns.
   std::vector<double> null_vector(std::size_t dependent_column) const;
 
-  // The null space is made on the first call; std::length_error where it is too large to store (null_space.hpp).
-  void project_out_null_space(std::vector<double>& x) const;
-  // A^+ b: project, solve, project, refine.
-  std::vector<double> apply(std::vector<double> b) const;
-
  private:
   std::vector<double> gather(const std::vector<double>& x) const;
   std::vector<double> scatter(const std::vector<double>& x) const;
-
-  template <class Residual, class Solve>
-  void refine(std::vector<double>& x, const Residual& residual_at, const Solve& solve_for) const;
 
   const SymmetricMatrix matrix_;
   std::vector<char> independent_;
@@ -45,7 +35,6 @@ class PseudoInverse {
   std::vector<std::size_t> null_;  // dependent columns
   SymmetricMatrix inner_;
   SparseCholesky factor_;
-  mutable std::optional<NullSpace> null_space_;
 };
 
 }  // namespace isostat

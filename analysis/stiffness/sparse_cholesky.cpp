@@ -1,8 +1,11 @@
 #include "analysis/stiffness/sparse_cholesky.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace isostat {
+
 std::vector<double> SymmetricMatrix::multiply(const std::vector<double>& x) const {
   std::vector<double> y(static_cast<std::size_t>(size), 0.0);
   for (std::size_t c = 0; c < y.size(); ++c) {
@@ -15,6 +18,17 @@ std::vector<double> SymmetricMatrix::multiply(const std::vector<double>& x) cons
     y[c] += sum;
   }
   return y;
+}
+
+double SymmetricMatrix::maximum_norm() const {
+  std::vector<double> sum(static_cast<std::size_t>(size), 0.0);
+  for (std::size_t c = 0; c < sum.size(); ++c)
+    for (auto e = static_cast<std::size_t>(start[c]); e < static_cast<std::size_t>(start[c + 1]); ++e) {
+      const auto r = static_cast<std::size_t>(row[e]);
+      sum[r] += std::abs(value[e]);
+      if (r != c) sum[c] += std::abs(value[e]);
+    }
+  return sum.empty() ? 0 : *std::max_element(sum.begin(), sum.end());
 }
 
 SymmetricMatrix principal_submatrix(const SymmetricMatrix& a, const std::vector<char>& keep) {

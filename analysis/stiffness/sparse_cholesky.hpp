@@ -15,6 +15,7 @@ struct SymmetricMatrix {
   std::vector<std::int32_t> start, row;
   std::vector<double> value;
   std::vector<double> multiply(const std::vector<double>& x) const;
+  double maximum_norm() const;  // largest row sum of magnitudes; 0 without columns
 };
 
 // The rows and columns with keep[i] != 0.

@@ -18,8 +18,8 @@ struct VibrationModes {
 // Diagonal of M by column of G in a fixed cell: masses and, with spins, inertias. Throws InputError unless positive.
 std::vector<double> dof_masses(const Packing<2>& packing, NetworkLaw network_law);
 
-// The `count` modes of smallest |omega| > 0. Throws InputError for grains without mass; FactorisationFailed or
-// std::length_error (too many zero modes to project out) as in pseudo_inverse.hpp.
+// The `count` modes of smallest |omega| > 0. Throws InputError for grains without mass; FactorisationFailed as
+// in lowest_modes.hpp.
 VibrationModes vibration_modes(const Packing<2>& packing, NetworkLaw network_law, const LawParameters& law, int count,
                                bool displacements);
 
