@@ -25,6 +25,7 @@ const std::vector<Section>& sections() {
       {"stiffness", stiffness_section},
       {"moduli", moduli_section},
       {.name = "modes", .compute = modes_section, .tables = modes_tables, .only_when_named = true},
+      {.name = "bases", .compute = bases_section, .tables = bases_tables, .only_when_named = true},
       {"pores", pores_section},
       {"scattering", scattering_section},
       {"dacf", dacf_section},

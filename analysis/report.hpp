@@ -18,6 +18,8 @@ struct AnalysisOptions {
   bool cell_free = false;               // --cell free: add the diagonal strain dofs
   std::optional<double> gap_tolerance;  // --gap-tolerance [length of the input]
   bool prestress = false;               // --prestress: modes of the full tangent, too
+  bool near_null = false;               // --near-null: near-null singular values of G whatever its size
+  int most_vectors = 20;                // --vectors: of each basis of the section bases
   double k_max = 0;                     // --k-max [1/length]; 0: the section's default
 };
 
@@ -50,7 +52,7 @@ struct Section {
   bool (*align)(std::vector<nlohmann::ordered_json>&) = nullptr;
   // What is computed from all inputs together and not by averaging; stands as "pooled" in the merged section.
   nlohmann::ordered_json (*pooled)(const std::vector<nlohmann::ordered_json>&) = nullptr;
-  // Costs many times all others together (30 s at 20000 grains): left out unless it is named.
+  // Long to compute or to read: left out unless it is named.
   bool only_when_named = false;
 };
 const std::vector<Section>& sections();  // in the order of the report

@@ -24,6 +24,8 @@ AnalysisOptions options_of(const Arguments& arguments) {
                                          : NetworkLaw::friction;
   options.cell_free = arguments.choice("--cell", {"fixed", "free"}).value_or("fixed") == "free";
   options.prestress = arguments.has("--prestress");
+  options.near_null = arguments.has("--near-null");
+  options.most_vectors = static_cast<int>(arguments.integer("--vectors", 1, 1000000).value_or(options.most_vectors));
   options.gap_tolerance = arguments.number("--gap-tolerance");
   if (options.gap_tolerance && *options.gap_tolerance < 0)
     throw InputError("command line", 0, "--gap-tolerance", *arguments.value("--gap-tolerance"), "must not be negative");
@@ -77,7 +79,8 @@ class Analysis {
 int analyze_command(int argc, char** argv) {
   std::string names;
   for (const Section& s : sections()) names += (names.empty() ? "" : ",") + std::string(s.name);
-  const std::string only_help = "sections to compute, among " + names + "; default: all that apply, without modes";
+  const std::string only_help =
+      "sections to compute, among " + names + "; default: all that apply, without modes and bases";
   const Arguments arguments(
       argc, argv,
       {{"--only", "LIST", only_help},
@@ -87,6 +90,8 @@ int analyze_command(int argc, char** argv) {
        {"--cell", "fixed|free", "free adds the diagonal strains of the cell to the degrees of freedom"},
        {"--gap-tolerance", "LENGTH", "gap up to which grains touch (contacts of grain lists; closing of pores)"},
        {"--prestress", "", "modes: those of the full tangent too, geometric term included (not symmetric)"},
+       {"--near-null", "", "rigidity: the smallest nonzero singular values also above 20000 degrees of freedom"},
+       {"--vectors", "N", "bases: at most N floppy modes and N self-stress states; default 20"},
        {"--k-max", "K", "largest wave number of the scattering intensity"}},
       {"INPUT...", "Measures what a packing is and what holds it up; several inputs make one ensemble."});
   if (arguments.inputs().empty())
@@ -97,8 +102,14 @@ int analyze_command(int argc, char** argv) {
   if (only_text && only.empty())
     throw InputError("command line", 0, "--only", *only_text, "names no section: " + names);
 
-  if (options.prestress && std::find(only.begin(), only.end(), "modes") == only.end())
-    throw InputError("command line", 0, "--prestress", "", "belongs to the section modes: name it in --only");
+  const auto belongs = [&](std::string_view option, std::string_view section) {
+    if (arguments.has(std::string(option)) && std::find(only.begin(), only.end(), section) == only.end())
+      throw InputError("command line", 0, std::string(option), "",
+                       "belongs to the section " + std::string(section) + ": name it in --only");
+  };
+  belongs("--prestress", "modes");
+  belongs("--near-null", "rigidity");
+  belongs("--vectors", "bases");
 
   const auto json_path = arguments.value("--json"), csv_directory = arguments.value("--csv");
   Analysis analysis(options, only, csv_directory.has_value());

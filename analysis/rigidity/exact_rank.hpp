@@ -2,10 +2,13 @@
 //
 // 1. Contraction to rigid bodies, exact.              (rigid_bodies.hpp)
 // 2. Removal of dangling bodies, exact.               (body_network.hpp)
-// 3. Rank of what is left modulo 2^61 - 1.            (modular_ldlt.hpp)   K_true <= K, as rank mod p <= rank
+// 3. Rank of what is left modulo 2^52 - 47.           (modular_ldlt.hpp)   K_true <= K, as rank mod p <= rank
 // 4. The same rank for random positions and radii
-//    on the same topology, modulo 2^61 - 31.          K_generic <= K_true: special positions only lower a rank
-// 5. Where the two differ, 3 again modulo 2^61 - 31.
+//    on the same topology, modulo 2^52 - 143.         K_generic <= K_true: special positions only lower a rank
+// 5. Where the two differ, 3 again modulo 2^52 - 143.
+//
+// Random weights can hide a pivot, chance columns / p, and make K of one elimination too large; a wrong verdict needs
+// two such accidents in different fields.
 //
 // The matrix meant is the exact one: coordinates are the rational numbers that the doubles are.
 #pragma once

@@ -6,20 +6,15 @@
 #include "analysis/rigidity/clusters.hpp"
 #include "analysis/rigidity/exact_rank.hpp"
 #include "analysis/stiffness/soft_modes.hpp"
-#include "analysis/stiffness/sparse_cholesky.hpp"
 
 namespace isostat {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Soft modes cost more than the integers; above this size they are left to `modes`.
+// Soft modes cost more than the integers; above this size they are for those who ask for them.
 constexpr std::int64_t kNearNullDofs = 20000;
 constexpr int kNearNullValues = 6;
-
-const char* name_of(NetworkLaw law) {
-  return law == NetworkLaw::frictionless ? "frictionless" : law == NetworkLaw::friction ? "friction" : "rolling";
-}
 
 // Null modes that vanish when the rattlers and their links are taken away (rattlers of a cohesionless state may touch).
 std::int64_t rattler_modes(const AnalysisInput& input, NetworkLaw law, bool cell_free, const ExactRank& whole) {
@@ -46,21 +41,19 @@ std::int64_t rattler_modes(const AnalysisInput& input, NetworkLaw law, bool cell
   return whole.floppy - exact_rank(backbone, law, cell_free).floppy;
 }
 
-Json near_null(const Packing<2>& packing, NetworkLaw law, bool cell_free, const ExactRank& rank) {
-  if (rank.dofs > kNearNullDofs)
-    return Json{{"values", nullptr},
-                {"reason", "not computed above " + std::to_string(kNearNullDofs) + " degrees of freedom"}};
-  try {
-    return Json{{"values", smallest_singular_values(packing, law, cell_free, kNearNullValues)}};
-  } catch (const std::length_error& e) {
-    return Json{{"values", nullptr}, {"reason", e.what()}};
-  } catch (const FactorisationFailed& e) {
-    // The exact K says that the rest is regular; CHOLMOD lost it to rounding: singular values near 1e-8 of the largest.
-    return Json{{"values", nullptr}, {"reason", std::string("softer than double precision resolves: ") + e.what()}};
-  }
+Json near_null(const Packing<2>& packing, NetworkLaw law, const AnalysisOptions& options, const ExactRank& rank) {
+  if (rank.dofs > kNearNullDofs && !options.near_null)
+    return Json{
+        {"values", nullptr},
+        {"reason", "above " + std::to_string(kNearNullDofs) + " degrees of freedom they are left to --near-null"}};
+  return Json{{"values", smallest_singular_values(packing, law, options.cell_free, kNearNullValues)}};
 }
 
 }  // namespace
+
+const char* name_of(NetworkLaw law) {
+  return law == NetworkLaw::frictionless ? "frictionless" : law == NetworkLaw::friction ? "friction" : "rolling";
+}
 
 Json rigidity_section(const AnalysisInput& input, const AnalysisOptions& options) {
   const Packing<2>& packing = input.planar("rigidity");
@@ -102,7 +95,7 @@ Json rigidity_section(const AnalysisInput& input, const AnalysisOptions& options
                 {"error_chance", 1e-12},
                 {"rigid_bodies", r.bodies},
                 {"gear_components", gears},
-                {"near_null_singular_values", near_null(packing, law, options.cell_free, r)}}}};
+                {"near_null_singular_values", near_null(packing, law, options, r)}}}};
 }
 
 Json clusters_section(const AnalysisInput& input, const AnalysisOptions& options) {

@@ -12,8 +12,12 @@ nlohmann::ordered_json clusters_section(const AnalysisInput& input, const Analys
 nlohmann::ordered_json stiffness_section(const AnalysisInput& input, const AnalysisOptions& options);
 nlohmann::ordered_json moduli_section(const AnalysisInput& input, const AnalysisOptions& options);
 nlohmann::ordered_json modes_section(const AnalysisInput& input, const AnalysisOptions& options);
+nlohmann::ordered_json bases_section(const AnalysisInput& input, const AnalysisOptions& options);
 
 std::vector<Table> clusters_tables(const AnalysisInput& input, const AnalysisOptions& options);
 std::vector<Table> modes_tables(const AnalysisInput& input, const AnalysisOptions& options);
+std::vector<Table> bases_tables(const AnalysisInput& input, const AnalysisOptions& options);
+
+const char* name_of(NetworkLaw law);  // as --law has it
 
 }  // namespace isostat

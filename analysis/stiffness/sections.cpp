@@ -127,8 +127,6 @@ Json modes_section(const AnalysisInput& input, const AnalysisOptions& options) {
     section["omega"] = modes.omega;
     section["zero_modes"] = modes.zero_modes;
     section["converged"] = modes.converged;
-  } catch (const std::length_error& e) {
-    section["reason"] = e.what();
   } catch (const FactorisationFailed& e) {
     section["reason"] = e.what();
   }

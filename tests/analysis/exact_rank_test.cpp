@@ -198,7 +198,44 @@ TEST(ExactRank, Torture) {
     EXPECT_EQ(r.mechanisms, 3);
     EXPECT_EQ(r.hyperstatic, 0);
   }
+  {  // coincident contacts: two overlapping disks meet a third at one and the same point (.5, 0), so their two pins on
+     // it are not distinct
+    const Packing<2> p = parse_network<2>(
+                             "grain 0 0 0 1\ngrain 1 .75 0 .5\ngrain 2 1 0 1\n"
+                             "contact 0 1 c\ncontact 0 2 c\ncontact 1 2 c\n",
+                             "torture")
+                             .packing;
+    for (const NetworkLaw law : kLaws)
+      EXPECT_EQ(exact_rank(p, law, false).rank, rational_rank(p, law, false)) << static_cast<int>(law);
+  }
+  {  // a perfect crystal of equal disks, in every law and cell: special positions, against rational elimination
+    RandomNetwork o;
+    o.columns = o.rows = 6, o.jitter = 0, o.coordination = 6;
+    Packing<2> p = random_network(o);
+    p.bodies.radius.assign(p.bodies.size(), 0.5);
+    for (const NetworkLaw law : kLaws)
+      for (const bool cell_free : {false, true}) {
+        const ExactRank r = exact_rank(p, law, cell_free);
+        EXPECT_EQ(r.rank, rational_rank(p, law, cell_free));
+        EXPECT_TRUE(r.certified);
+        EXPECT_EQ(r.mechanisms, 0);
+      }
+  }
+  {  // several links between one pair, through different images, and one link line twice: each is a row of its own
+    const ExactRank once = rank_of("cell 2 9\ngrain 0 0 0 .5\ngrain 1 1 0 .5\ncontact 0 1 c 0 0\ncontact 0 1 c -1 0\n");
+    EXPECT_EQ(once.rows, 4);
+    EXPECT_EQ(once.rank, 3);
+    EXPECT_EQ(once.hyperstatic, 1);
+  }
   EXPECT_THROW(rank_of("grain 0 0 0 .5\n", NetworkLaw::friction, true), InputError);
+}
+
+// One line given twice, or a pair that is given two kinds for the same image, is refused with both lines named.
+TEST(ExactRank, DuplicateAndContradictoryLines) {
+  const std::string grains = "grain 0 0 0 .5\ngrain 1 1 0 .5\n";
+  for (const char* contacts : {"contact 0 1 c\ncontact 0 1 c\n", "contact 0 1 c\ncontact 1 0 s\n"})
+    EXPECT_THROW(parse_network<2>(grains + contacts, "torture"), InputError) << contacts;
+  EXPECT_THROW(parse_network<2>(grains + "grain 1 2 0 .5\n", "torture"), InputError);
 }
 
 TEST(ExactRank, GearsOfTheBipartiteGraph) {

@@ -1,0 +1,178 @@
+// Section `bases` of the report: floppy modes, self-stress states and the split of the forces. What the vectors hold
+// goes into tables.
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "analysis/network/force_scale.hpp"
+#include "analysis/rigidity/exact_rank.hpp"
+#include "analysis/rigidity/rigidity_matrix.hpp"
+#include "analysis/rigidity/sections.hpp"
+#include "analysis/stiffness/bases.hpp"
+#include "analysis/stiffness/sparse_cholesky.hpp"
+
+namespace isostat {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Vector = std::vector<double>;
+using Rows = std::array<Vector, 3>;  // by link: N, T, M; 0 for a row that the link has not
+
+constexpr double kTouched = 1e-9;  // of the largest component: smaller ones count as rounding in "grains", "links"
+
+struct Question {
+  const Packing<2>& packing;
+  NetworkLaw law;
+  bool cell_free;
+  std::size_t most;
+  RigidityMatrix g;
+};
+
+Question question(const AnalysisInput& input, const AnalysisOptions& options) {
+  const Packing<2>& packing = input.planar("bases");
+  const NetworkLaw law = input.network_law(options);
+  return {packing, law, options.cell_free, static_cast<std::size_t>(options.most_vectors),
+          rigidity_matrix(packing, law, options.cell_free)};
+}
+
+Rows by_link(const Question& q, const Vector& of_row) {
+  Rows rows;
+  for (Vector& v : rows) v.assign(q.packing.links.size(), 0.0);
+  for (std::size_t r = 0; r < of_row.size(); ++r)
+    rows[static_cast<std::size_t>(q.g.component[r])][static_cast<std::size_t>(q.g.link_of_row[r])] = of_row[r];
+  return rows;
+}
+
+bool zero_link(const Rows& rows, std::size_t link, double below) {
+  return std::all_of(rows.begin(), rows.end(), [&](const Vector& v) { return std::abs(v[link]) <= below; });
+}
+
+Vector link_columns(const Packing<2>& packing, std::size_t link) {
+  const Link<2>& l = packing.links[link];
+  return {static_cast<double>(packing.bodies.id[static_cast<std::size_t>(l.i)]),
+          static_cast<double>(packing.bodies.id[static_cast<std::size_t>(l.j)]), static_cast<double>(l.shift[0]),
+          static_cast<double>(l.shift[1])};
+}
+
+std::array<double, 3> motion_of(const Question& q, const Vector& u, std::size_t grain) {
+  const auto per_body = static_cast<std::size_t>(q.g.layout.per_body);
+  return {u[per_body * grain], u[per_body * grain + 1], per_body == 3 ? u[per_body * grain + 2] : 0.0};
+}
+
+double largest(const Vector& v) {
+  double m = 0;
+  for (double x : v) m = std::max(m, std::abs(x));
+  return m;
+}
+
+Json floppy_json(const Question& q, std::int64_t of) {
+  Json list = Json::array();
+  for (const NullVector& v : floppy_modes(q.packing, q.law, q.cell_free, q.most)) {
+    std::int64_t grains = 0;
+    for (std::size_t i = 0; i < q.packing.bodies.size(); ++i) {
+      const auto m = motion_of(q, v.value, i);
+      grains += std::any_of(m.begin(), m.end(), [](double x) { return std::abs(x) > kTouched; });
+    }
+    list.push_back({{"grains", grains}, {"residual", v.residual}});
+  }
+  return {{"given", list.size()}, {"of", of}, {"list", list}};
+}
+
+Json self_stress_json(const Question& q, std::int64_t of) {
+  Json list = Json::array();
+  for (const NullVector& v : self_stress_states(q.packing, q.law, q.cell_free, q.most)) {
+    const Rows rows = by_link(q, v.value);
+    std::int64_t links = 0;
+    for (std::size_t l = 0; l < q.packing.links.size(); ++l) links += !zero_link(rows, l, kTouched);
+    list.push_back({{"links", links}, {"residual", v.residual}});
+  }
+  return {{"given", list.size()}, {"of", of}, {"list", list}};
+}
+
+Json split_json(const Question& q, const AnalysisInput& input) {
+  if (!read_forces(input).known) return nullptr;
+  const Vector forces = link_forces(q.packing, q.g);
+  const ForceSplit split = split_forces(q.packing, q.law, q.cell_free, forces);
+  const auto length = [](const Vector& v) {
+    double sum = 0;
+    for (double x : v) sum += x * x;
+    return std::sqrt(sum);
+  };
+  return {{"forces", length(forces)},
+          {"balancing", length(split.balancing)},
+          {"self_stress", length(split.self_stress)},
+          {"load", largest(q.g.body_forces(forces))},
+          {"residual", split.residual}};
+}
+
+}  // namespace
+
+Json bases_section(const AnalysisInput& input, const AnalysisOptions& options) {
+  const Question q = question(input, options);
+  const ExactRank rank = exact_rank(q.packing, q.law, q.cell_free);
+  Json section{{"law", name_of(q.law)}, {"cell", q.cell_free ? "free" : "fixed"}};
+  try {
+    section["floppy_modes"] = floppy_json(q, rank.floppy);
+    section["self_stress"] = self_stress_json(q, rank.hyperstatic);
+    section["split"] = split_json(q, input);
+  } catch (const FactorisationFailed& e) {
+    section["failed"] =
+        std::string("the independent columns are too nearly dependent for double precision: ") + e.what();
+  }
+  return section;
+}
+
+std::vector<Table> bases_tables(const AnalysisInput& input, const AnalysisOptions& options) {
+  const Question q = question(input, options);
+  Table modes{"floppy_modes", {"mode", "id", "vx", "vy", "omega"}, {}};
+  Table strains{"floppy_strains", {"mode", "e11", "e22"}, {}};
+  Table states{"self_stress", {"state", "i", "j", "s1", "s2", "N", "T", "M"}, {}};
+  Table split{"split",
+              {"i", "j", "s1", "s2", "N_balancing", "T_balancing", "M_balancing", "N_self_stress", "T_self_stress",
+               "M_self_stress"},
+              {}};
+  try {
+    double number = 0;
+    for (const NullVector& v : floppy_modes(q.packing, q.law, q.cell_free, q.most)) {
+      ++number;
+      for (std::size_t i = 0; i < q.packing.bodies.size(); ++i) {
+        const auto m = motion_of(q, v.value, i);
+        if (m == std::array<double, 3>{}) continue;
+        modes.rows.push_back({number, static_cast<double>(q.packing.bodies.id[i]), m[0], m[1], m[2]});
+      }
+      if (q.g.layout.strains > 0)
+        strains.rows.push_back({number, v.value[static_cast<std::size_t>(q.g.layout.strain_column(0))],
+                                v.value[static_cast<std::size_t>(q.g.layout.strain_column(1))]});
+    }
+    number = 0;
+    for (const NullVector& v : self_stress_states(q.packing, q.law, q.cell_free, q.most)) {
+      ++number;
+      const Rows rows = by_link(q, v.value);
+      for (std::size_t l = 0; l < q.packing.links.size(); ++l) {
+        if (zero_link(rows, l, 0)) continue;
+        Vector line = link_columns(q.packing, l);
+        line.insert(line.begin(), number);
+        for (const Vector& v_of : rows) line.push_back(v_of[l]);
+        states.rows.push_back(std::move(line));
+      }
+    }
+    if (read_forces(input).known) {
+      const ForceSplit parts = split_forces(q.packing, q.law, q.cell_free, link_forces(q.packing, q.g));
+      const Rows balancing = by_link(q, parts.balancing), self_stress = by_link(q, parts.self_stress);
+      for (std::size_t l = 0; l < q.packing.links.size(); ++l) {
+        Vector line = link_columns(q.packing, l);
+        for (const Rows* rows : {&balancing, &self_stress})
+          for (const Vector& v_of : *rows) line.push_back(v_of[l]);
+        split.rows.push_back(std::move(line));
+      }
+    }
+  } catch (const FactorisationFailed&) {
+    return {};  // the section says why
+  }
+  std::vector<Table> tables = {modes, states};
+  if (q.g.layout.strains > 0) tables.push_back(strains);
+  if (!split.rows.empty()) tables.push_back(split);
+  return tables;
+}
+
+}  // namespace isostat
