@@ -13,12 +13,11 @@ namespace {
 
 constexpr Eigen::Index kMostRestarts = 1000;
 // Of the Ritz vectors, relative; the Rayleigh quotients are off by its square.
-constexpr double kLanczosTolerance = 1e-9;
+constexpr double kLanczosTolerance = 3e-11;
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr double kFirstGuess = 1e-4;  // lambda / |A| that the first shift is made for
-constexpr double kGuessHolds = 1e-2;  // of the guess: softer modes ask for a smaller shift
+constexpr double kNoiseShare = 1e-2;      // of the wanted end of the spectrum: image of the null space by rounding
+constexpr double kSmallestShift = 1e-13;  // of |A|: A + sigma stays positive beyond rounding
 constexpr int kMostShifts = 3;
-constexpr double kNoiseShare = 1e-2;  // of the wanted end of the spectrum: image of the null space by rounding
 
 // M^-1/2 A M^-1/2, whose null vectors are M^1/2 times those of A: the same columns depend on the same others.
 SymmetricMatrix mass_scaled(SymmetricMatrix a, const std::vector<double>& mass) {
@@ -29,9 +28,9 @@ SymmetricMatrix mass_scaled(SymmetricMatrix a, const std::vector<double>& mass) 
   return a;
 }
 
-// T = B^-1 A B^-1 with B = A + sigma, operator type of Spectra. To an eigenvalue lambda of A belongs
-// lambda / (lambda + sigma)^2: the null space of A goes to zero without being known, modes with lambda well above
-// sigma go to 1 / lambda, and down to sigma^2 / lambda_k even softer ones stand before the k-th.
+// T = B^-1 A B^-1 A B^-1 with B = A + sigma, operator type of Spectra. To an eigenvalue lambda of A belongs
+// lambda^2 / (lambda + sigma)^3: the null space of A goes to zero without being known, modes with lambda well above
+// sigma go to 1 / lambda, and softer ones stand before the k-th as long as lambda^2 > sigma^3 / lambda_k.
 class FilteredInverse {
  public:
   using Scalar = double;
@@ -40,7 +39,7 @@ class FilteredInverse {
   Eigen::Index rows() const { return a_.size; }
   Eigen::Index cols() const { return rows(); }
   void perform_op(const double* x, double* y) const {
-    const std::vector<double> result = factor_.solve(range_part(std::vector<double>(x, x + a_.size)));
+    const std::vector<double> result = factor_.solve(range_part(range_part(std::vector<double>(x, x + a_.size))));
     std::copy(result.begin(), result.end(), y);
   }
   // A B^-1 x, without the share of x in null A.
@@ -123,20 +122,22 @@ LowestModes modes_at_shift(const SymmetricMatrix& a, double sigma, std::size_t w
   return modes;
 }
 
-// Rounding makes T n ~ eps |A| / sigma^2 of a null vector n, where zero is meant; the shift keeps that at a small share
-// of the wanted 1 / lambda. The softest modes that are seen then stand at lambda ~ eps |A| / share, where double
-// precision ends anyway.
+// Rounding makes T n ~ (eps |A|)^2 / sigma^3 of a null vector n, where zero is meant; the shift keeps that at a small
+// share of 1 / |A|, the least that is ever wanted. Where the modes found are so soft that softer ones could hide behind
+// the shift, a smaller one is taken, as 1 / lambda allows it.
 LowestModes lanczos_modes(const SymmetricMatrix& a, std::size_t rank, int count, bool definite, bool vectors) {
   const auto wanted = std::min(static_cast<std::size_t>(count), rank - 1);
   const double norm = a.maximum_norm();
-  double guess = kFirstGuess * norm;
+  double of = norm;  // eigenvalue that the shift is made for
   for (int shift = 1;; ++shift) {
-    LowestModes modes =
-        modes_at_shift(a, std::sqrt(kEpsilon / kNoiseShare * norm * guess), wanted, rank, definite, vectors);
+    const double sigma =
+        std::max(std::cbrt(kEpsilon * kEpsilon / kNoiseShare * norm * norm * of), kSmallestShift * norm);
+    LowestModes modes = modes_at_shift(a, sigma, wanted, rank, definite, vectors);
     double largest = 0;
     for (double lambda : modes.value) largest = std::max(largest, std::abs(lambda));
-    if (!modes.converged || largest >= kGuessHolds * guess || shift == kMostShifts) return modes;
-    guess = std::max(largest, kEpsilon / kNoiseShare * norm);
+    const bool seen = sigma * sigma * sigma <= largest * kSoftest * kSoftest * norm * norm;
+    if (seen || !modes.converged || sigma <= kSmallestShift * norm || shift == kMostShifts) return modes;
+    of = largest;
   }
 }
 

@@ -20,6 +20,6 @@ struct LowestModes {
 LowestModes lowest_modes(const SymmetricMatrix& a, const std::vector<char>& dependent, std::vector<double> mass,
                          int count, bool definite, bool vectors);
 inline constexpr std::int32_t kDenseSize = 240;
-inline constexpr double kSoftest = 1e-13;  // of the maximum norm, masses scaled out
+inline constexpr double kSoftest = 1e-12;  // of the maximum norm, masses scaled out
 
 }  // namespace isostat

@@ -80,8 +80,9 @@ TEST(LooseModes, GasOfEqualPairsKeepsMultiplicities) {
   for (double s : sigma) EXPECT_NEAR(s, std::sqrt(2.0), 1e-14);
 }
 
-// A grain held by two links in nearly opposite directions, off by the angle delta: sigma = sqrt(2) delta if its
-// neighbours stood still. Soft and not floppy, down to where sigma^2 is rounding. Oracle: singular values of G itself.
+// A grain on a link between two others, held by links to both, off the line by the angle delta: it can leave the line
+// at a cost of the second order, sigma = sqrt(2) delta if its neighbours stood still. Soft and not floppy, down to
+// where sigma^2 is rounding. Oracle: singular values of G itself.
 TEST(SoftModes, AreFoundBesideManyFloppyOnes) {
   for (const double delta : {1e-2, 1e-4, 1e-6}) {
     Packing<2> p = loose(11, 3.7, 15);
@@ -90,9 +91,9 @@ TEST(SoftModes, AreFoundBesideManyFloppyOnes) {
     p.bodies.id.push_back(1000);
     p.bodies.position.push_back(from + 0.5 * along + (0.5 * delta) * Vec2{{-along[1], along[0]}});
     p.bodies.radius.push_back(0.5);
-    for (const std::int32_t end : {a, b}) {
+    for (const auto& [i, j] : {std::pair{a, b}, std::pair{x, a}, std::pair{x, b}}) {
       Link<2> link;
-      link.i = x, link.j = end;
+      link.i = i, link.j = j;
       p.links.push_back(link);
     }
     const RigidityMatrix g = rigidity_matrix(p, NetworkLaw::frictionless, false);

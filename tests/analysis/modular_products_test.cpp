@@ -73,7 +73,8 @@ TYPED_TEST(ModularProducts, FrontFactorises) {
     ModularFront<F> front;
     front.reset(size);
     for (std::int32_t k = 0; k < rank; ++k) {
-      const auto g = residues<F>(static_cast<std::size_t>(size), 100 + static_cast<std::uint64_t>(k));
+      std::vector<F> g(static_cast<std::size_t>(size));
+      for (std::size_t i = 0; i < g.size(); ++i) g[i] = F::random(100 + static_cast<std::uint64_t>(k), i);
       const F w = F::random(9, static_cast<std::uint64_t>(k));
       for (std::int32_t i = 0; i < size; ++i)
         for (std::int32_t j = 0; j <= i; ++j) {
