@@ -6,6 +6,7 @@
 #include "analysis/rigidity/clusters.hpp"
 #include "analysis/rigidity/exact_rank.hpp"
 #include "analysis/stiffness/soft_modes.hpp"
+#include "analysis/stiffness/sparse_cholesky.hpp"
 
 namespace isostat {
 namespace {
@@ -46,7 +47,11 @@ Json near_null(const Packing<2>& packing, NetworkLaw law, const AnalysisOptions&
     return Json{
         {"values", nullptr},
         {"reason", "above " + std::to_string(kNearNullDofs) + " degrees of freedom they are left to --near-null"}};
-  return Json{{"values", smallest_singular_values(packing, law, options.cell_free, kNearNullValues)}};
+  try {
+    return Json{{"values", smallest_singular_values(packing, law, options.cell_free, kNearNullValues)}};
+  } catch (const FactorisationFailed& e) {
+    return Json{{"values", nullptr}, {"reason", std::string("double precision does not resolve them: ") + e.what()}};
+  }
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace isostat {
@@ -14,9 +13,11 @@ namespace {
 constexpr Eigen::Index kMostRestarts = 1000;
 // Of the Ritz vectors, relative; the Rayleigh quotients are off by its square.
 constexpr double kLanczosTolerance = 3e-11;
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr double kNoiseShare = 1e-2;      // of the wanted end of the spectrum: image of the null space by rounding
-constexpr double kSmallestShift = 1e-13;  // of |A|: A + sigma stays positive beyond rounding
+// sigma / sqrt(|A| lambda). The factorisation is off by E ~ 1e2 eps |A|; what it makes of a range vector has a share
+// E / sigma in null A, and as much of that comes back: residuals of (E / sigma)^2 lambda ~ 1e-10 |A|.
+constexpr double kShift = 5e-9;
+constexpr double kFirstMost = 0.1, kFirstColumns = 1e3;  // first lambda / |A|: at most, and columns for 1
+constexpr double kSmallestShift = 1e-13;                 // of |A|: A + sigma stays positive beyond rounding
 constexpr int kMostShifts = 3;
 
 // M^-1/2 A M^-1/2, whose null vectors are M^1/2 times those of A: the same columns depend on the same others.
@@ -122,22 +123,21 @@ LowestModes modes_at_shift(const SymmetricMatrix& a, double sigma, std::size_t w
   return modes;
 }
 
-// Rounding makes T n ~ (eps |A|)^2 / sigma^3 of a null vector n, where zero is meant; the shift keeps that at a small
-// share of 1 / |A|, the least that is ever wanted. Where the modes found are so soft that softer ones could hide behind
-// the shift, a smaller one is taken, as 1 / lambda allows it.
-LowestModes lanczos_modes(const SymmetricMatrix& a, std::size_t rank, int count, bool definite, bool vectors) {
+// The shift is made for the modes that are expected; where those found are so soft that softer ones could hide behind
+// it, it is made smaller for them.
+LowestModes lanczos_modes(const SymmetricMatrix& a, std::size_t rank, int count, bool definite, bool vectors,
+                          double softest) {
   const auto wanted = std::min(static_cast<std::size_t>(count), rank - 1);
   const double norm = a.maximum_norm();
-  double of = norm;  // eigenvalue that the shift is made for
+  double of = norm * std::min(kFirstMost, kFirstColumns / a.size);  // eigenvalue that the shift is made for
   for (int shift = 1;; ++shift) {
-    const double sigma =
-        std::max(std::cbrt(kEpsilon * kEpsilon / kNoiseShare * norm * norm * of), kSmallestShift * norm);
+    const double sigma = std::max(kShift * std::sqrt(norm * of), kSmallestShift * norm);
     LowestModes modes = modes_at_shift(a, sigma, wanted, rank, definite, vectors);
     double largest = 0;
     for (double lambda : modes.value) largest = std::max(largest, std::abs(lambda));
-    const bool seen = sigma * sigma * sigma <= largest * kSoftest * kSoftest * norm * norm;
+    const bool seen = sigma * sigma * sigma <= largest * softest * softest * norm * norm;
     if (seen || !modes.converged || sigma <= kSmallestShift * norm || shift == kMostShifts) return modes;
-    of = largest;
+    of = std::min(largest, 0.1 * of);
   }
 }
 
@@ -181,7 +181,7 @@ SymmetricMatrix block_matrix(const SymmetricMatrix& a, const std::vector<std::si
 }  // namespace
 
 LowestModes lowest_modes(const SymmetricMatrix& a, const std::vector<char>& dependent, std::vector<double> mass,
-                         int count, bool definite, bool vectors) {
+                         int count, bool definite, bool vectors, double softest) {
   LowestModes all;
   if (count <= 0) return all;
   const SymmetricMatrix scaled = mass_scaled(a, mass);
@@ -194,7 +194,7 @@ LowestModes lowest_modes(const SymmetricMatrix& a, const std::vector<char>& depe
     if (rank == 0) continue;
     const SymmetricMatrix block = block_matrix(scaled, columns, number);
     LowestModes here = block.size <= kDenseSize ? dense_modes(block, null_dimension, count, vectors)
-                                                : lanczos_modes(block, rank, count, definite, vectors);
+                                                : lanczos_modes(block, rank, count, definite, vectors, softest);
     all.converged = all.converged && here.converged;
     all.value.insert(all.value.end(), here.value.begin(), here.value.end());
     for (auto& v : here.vector) all.vector.push_back(std::move(v)), columns_of.push_back(columns);

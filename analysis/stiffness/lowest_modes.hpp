@@ -7,6 +7,8 @@
 
 namespace isostat {
 
+inline constexpr double kSoftest = 1e-11;
+
 struct LowestModes {
   std::vector<double> value;                // lambda, by ascending magnitude
   std::vector<std::vector<double>> vector;  // M-orthonormal; empty unless asked for
@@ -15,11 +17,11 @@ struct LowestModes {
 
 // mass: diagonal of M, all positive; empty: the identity. dependent: one flag a column of `a`, see dependent_columns();
 // only their number in each block of coupled columns counts. Blocks are solved one by one, small ones (size <=
-// kDenseSize) densely. Modes softer than kSoftest |A| are rounding and may be missed. Throws FactorisationFailed
-// (indefinite matrices only).
+// kDenseSize) densely. Modes softer than `softest` (of the maximum norm |A|, masses scaled out) may be missed beside
+// stiff ones; a smaller value can cost further factorisations. Throws FactorisationFailed if
+// A + shift cannot be factorised (shift >= 1e-13 |A|).
 LowestModes lowest_modes(const SymmetricMatrix& a, const std::vector<char>& dependent, std::vector<double> mass,
-                         int count, bool definite, bool vectors);
+                         int count, bool definite, bool vectors, double softest = kSoftest);
 inline constexpr std::int32_t kDenseSize = 240;
-inline constexpr double kSoftest = 1e-12;  // of the maximum norm, masses scaled out
 
 }  // namespace isostat

@@ -8,6 +8,11 @@
 #include "analysis/stiffness/stiffness_matrix.hpp"
 
 namespace isostat {
+namespace {
+
+constexpr double kSoftestSquare = 1e-13;  // of |G^T G|: to 3e-7 of the largest singular value
+
+}  // namespace
 
 std::vector<double> smallest_singular_values(const Packing<2>& packing, NetworkLaw law, bool cell_free, int count) {
   const RigidityMatrix g = rigidity_matrix(packing, law, cell_free);
@@ -22,7 +27,7 @@ std::vector<double> smallest_singular_values(const Packing<2>& packing, NetworkL
   }
   for (int a = 0; a < g.layout.strains; ++a) scale.push_back(packing.cell->length[a] * packing.cell->length[a]);
   const LowestModes modes = lowest_modes(weighted_normal_matrix(g, weight), dependent_columns(packing, law, cell_free),
-                                         scale, count, true, false);
+                                         scale, count, true, false, kSoftestSquare);
   std::vector<double> sigma;
   for (double lambda : modes.value) sigma.push_back(std::sqrt(std::max(lambda, 0.0)));
   return sigma;
