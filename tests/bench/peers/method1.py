@@ -5,6 +5,7 @@ Both codes compress a random gas of the same recipe, each its own sample (N disk
 Phi_I = .36, P = K_N a / 1e5), until the criteria of Gilabert 2007, Sec. II.D hold: CPU seconds of stepping, Phi, and z
 from contacts above 1e-4 aP.
     method1.py [--count 1400] [--law rolling,granular] [--seeds 1,2,3] [--code isostat,lammps] [--finish none,drag]
+               [--step 0.06,0.12]
 
 What differs in LAMMPS: its barostat (fix nph/sphere) scales velocities with the cell and leaves the affine part out of the
 velocities in contacts; inertia per direction (N + 1) pdamp^2, set to .3 sum(m) L^2 at the start; in place of a cap on the
@@ -32,7 +33,7 @@ INERTIA = 0.3           # of the cell, in sum(m) L^2
 STRAIN_RATE_CAP = 0.05  # [1/T0]
 LATE_DRAG = 0.3         # [1/T0] drag of LAMMPS's cell once the contacts carry P / 2
 GRAIN_DRAG = 0.5        # [1/T0] of the finishing step, in LAMMPS for the mean mass
-HEADER = ("code", "law", "finish", "grains", "seed", "cpu_seconds", "steps", "time_T0", "solid_fraction", "z", "equilibrated")
+HEADER = ("code", "law", "finish", "step_fraction", "grains", "seed", "cpu_seconds", "steps", "time_T0", "solid_fraction", "z", "equilibrated")
 
 
 def gas(count, seed):
@@ -80,13 +81,14 @@ def coordination(cell, grains, stiffness):
     return 2 * contacts / len(grains)
 
 
-def run_lammps(law, cell, grains, directory, skin, limit, finish):
+def run_lammps(law, cell, grains, directory, skin, limit, finish, fraction):
     lammps.write_data(os.path.join(directory, "gas.data"), cell, grains)
     mass = sum(4 * r * r for *_, r in grains)
+    dt = fraction / math.sqrt(lammps.K_N)
     pdamp = math.sqrt(INERTIA * mass * cell[0] ** 2 / (len(grains) + 1))
     early_drag = 1 / (INERTIA * mass * STRAIN_RATE_CAP)  # P V / (inertia rate) = cap at the start
     log = lammps.run(os.path.join(HERE, "method1.in"), directory, lammps.pair_style(law, [g[3] for g in grains]),
-                     data="gas.data", out="packed.dump", dt=lammps.TIME_STEP, skin=skin, newton="on", every=10, pdamp=pdamp,
+                     data="gas.data", out="packed.dump", dt=dt, skin=skin, newton="on", every=10, pdamp=pdamp,
                      drag1=early_drag * pdamp, drag2=LATE_DRAG * pdamp,
                      viscous=GRAIN_DRAG * mass / len(grains) if finish == "drag" else 0, check=1000, limit=limit)
     loops = lammps.loops(log)
@@ -98,16 +100,16 @@ def run_lammps(law, cell, grains, directory, skin, limit, finish):
     final_cell = [high - low for low, high in box]
     final = [tuple(float(v) % length if n < 2 else float(v) for n, (v, length) in
                    enumerate(zip(line.split()[1:4], (*final_cell, 1)))) for line in lines[9:9 + len(grains)]]
-    fraction = sum(math.pi * r * r for *_, r in final) / (final_cell[0] * final_cell[1])
-    return seconds, steps, steps * lammps.TIME_STEP, fraction, coordination(final_cell, final, lammps.K_N), equilibrated
+    phi = sum(math.pi * r * r for *_, r in final) / (final_cell[0] * final_cell[1])
+    return seconds, steps, steps * dt, phi, coordination(final_cell, final, lammps.K_N), equilibrated
 
 
-def run_isostat(program, law, count, seed, directory, finish):
+def run_isostat(program, law, count, seed, directory, finish, fraction):
     state, timings = os.path.join(directory, "packed.h5"), os.path.join(directory, "timings.json")
     command = [program, "pack", os.path.join(ROOT, "data/scenes/disks-method1-cohesionless.toml"), "-o", state,
                "--seed", str(seed), "--threads", "1", "--timings", timings, "--set", f"grains.count={count}",
                "--set", f"law.rolling={str(law == 'rolling').lower()}"]
-    command += ["--set", f"finish.method={json.dumps(finish)}"]
+    command += ["--set", f"finish.method={json.dumps(finish)}", "--set", f"step.fraction={fraction}"]
     code = subprocess.run(command, stdin=subprocess.DEVNULL).returncode
     if code not in (0, 3):
         sys.exit(f"{' '.join(command)}: exit {code}")
@@ -131,6 +133,7 @@ if __name__ == "__main__":
     parser.add_argument("--code", default="isostat,lammps")
     parser.add_argument("--finish", default="none,drag",
                         help="none: the bare law to the end; drag: a drag on all grains once at rest (both codes)")
+    parser.add_argument("--step", default="0.06", help="c of dt = c sqrt(m / K_N), both codes")
     parser.add_argument("--skin", type=float, default=0.1, help="of LAMMPS")
     parser.add_argument("--limit", type=int, default=20000000, help="steps of LAMMPS, of each of its three runs")
     parser.add_argument("--csv", default=os.path.join(ROOT, "tests/bench/results/peers_method1.csv"), help="appended to")
@@ -142,13 +145,15 @@ if __name__ == "__main__":
         if fresh:
             writer.writerow(HEADER)
         for seed in map(int, options.seeds.split(",")):
-            for law, finish, code in itertools.product(*(o.split(",") for o in (options.law, options.finish, options.code))):
+            for step, law, finish, code in itertools.product(
+                    *(o.split(",") for o in (options.step, options.law, options.finish, options.code))):
                 with tempfile.TemporaryDirectory() as directory:
                     if code == "lammps":
-                        found = run_lammps(law, *gas(options.count, seed), directory, options.skin, options.limit, finish)
+                        found = run_lammps(law, *gas(options.count, seed), directory, options.skin, options.limit, finish,
+                                           float(step))
                     else:
-                        found = run_isostat(options.program, law, options.count, seed, directory, finish)
-                row = [code, law, finish, options.count, seed, *(f"{v:.6g}" if isinstance(v, float) else v for v in found)]
+                        found = run_isostat(options.program, law, options.count, seed, directory, finish, float(step))
+                row = [code, law, finish, step, options.count, seed, *(f"{v:.6g}" if isinstance(v, float) else v for v in found)]
                 writer.writerow(row)
                 table.flush()
                 print(*row, flush=True)
