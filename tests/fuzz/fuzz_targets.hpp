@@ -11,7 +11,8 @@ namespace isostat {
 void fuzz_scene(std::string_view bytes);
 void fuzz_network(std::string_view bytes);
 void fuzz_state(std::string_view bytes);
-// A file of grains in any format, and after a line with % alone the file of its contacts (docs/formats.md).
+// A file of grains in any format, and after a line with % alone the file of its contacts (docs/formats.md); what is
+// read can be kept as a state.
 void fuzz_packing(std::string_view bytes);
 
 }  // namespace isostat
