@@ -61,7 +61,7 @@ void check_seal(std::string_view image, const std::string& path) {
                          "; use the isostat that wrote the file");
   const auto length = number_after(seal, kLength);
   const std::size_t bytes = image.size() > kSealBytes ? image.size() - kSealBytes : 0;
-  if (!length || bytes < *length)
+  if (!length || image.size() < kSealBytes || bytes < *length)
     throw InputError(path, 0, "", "",
                      "truncated: " + std::to_string(bytes) + " bytes of data, " +
                          (length ? std::to_string(*length) : std::string("an unknown number")) + " were written");

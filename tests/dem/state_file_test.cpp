@@ -88,6 +88,8 @@ TEST(StateFile, EveryTruncationIsBadInput) {
   EXPECT_THAT(message_of([&] { decode_state(std::string_view(image).substr(0, 5000), "cut"); }),
               HasSubstr("truncated"));
   EXPECT_THROW(decode_state(image + "x", "longer"), InputError);
+  const std::string seal_of_nothing = image.substr(0, image.find("bytes ")) + "bytes 0\n";
+  EXPECT_THROW(decode_state(seal_of_nothing, "short"), InputError);  // not even a whole seal
 }
 
 TEST(StateFile, EveryFlippedBitIsBadInput) {
