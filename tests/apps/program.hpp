@@ -9,6 +9,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include "tests/oracle/temporary_folder.hpp"
 
 namespace isostat {
 
@@ -40,13 +41,7 @@ struct Outcome {
 
 class Program : public ::testing::Test {
  protected:
-  Program() {
-    std::string name = (std::filesystem::temp_directory_path() / "isostat-XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
-  }
-  ~Program() override { std::filesystem::remove_all(folder_); }
-
-  std::string in_folder(const std::string& name) const { return folder_ + "/" + name; }
+  std::string in_folder(const std::string& name) const { return folder_ / name; }
   static std::string content(const std::string& path) {
     std::ifstream in(path, std::ios::binary);
     std::ostringstream text;
@@ -65,7 +60,7 @@ class Program : public ::testing::Test {
   }
 
  private:
-  std::string folder_;
+  TemporaryFolder folder_;
 };
 
 }  // namespace isostat

@@ -12,6 +12,7 @@
 #include "dem/series.hpp"
 #include "dem/state_file.hpp"
 #include "tests/oracle/disk_states.hpp"
+#include "tests/oracle/temporary_folder.hpp"
 
 namespace isostat {
 namespace {
@@ -82,7 +83,8 @@ LawScene law_of(const Composition& c) {
 
 // Cut anywhere, the run through a state file gives the bits of the straight run, lists in mid-life included.
 TEST(Determinism, ARestartIsTheStraightRun) {
-  const std::string path = testing::TempDir() + "isostat_restart.h5";
+  const TemporaryFolder folder;
+  const std::string path = folder / "state.h5";
   for (const Composition& c : compositions()) {
     SCOPED_TRACE(std::string(c.name) + (c.adhesion ? " adhesion" : "") + (c.free_cell ? " free cell" : ""));
     RandomDisks r;
@@ -102,7 +104,6 @@ TEST(Determinism, ARestartIsTheStraightRun) {
       EXPECT_EQ(bytes(marched(read_state(path), control, 150 - cut, watched)), bytes(end)) << "cut at step " << cut;
     }
   }
-  std::filesystem::remove(path);
 }
 
 // The ledger is kept by a dearer kernel; the physics does not notice. Snapshots only read.
@@ -178,7 +179,8 @@ TEST(Determinism, AnInterruptedRunGoesOnAsIfItHadNotBeen) {
   const Scene scene = small_scene();
   State straight = initial_state(scene, 6);
   ASSERT_TRUE(run_stages(straight, {}, {}).all_met());
-  const std::string path = testing::TempDir() + "isostat_interrupted.h5";
+  const TemporaryFolder folder;
+  const std::string path = folder / "state.h5";
   State s = initial_state(scene, 6);
   int interruptions = 0;
   for (bool done = false; !done && interruptions < 100;) {
@@ -197,7 +199,6 @@ TEST(Determinism, AnInterruptedRunGoesOnAsIfItHadNotBeen) {
   }
   EXPECT_GT(interruptions, 5);
   EXPECT_EQ(physical_hash(s), physical_hash(straight));
-  std::filesystem::remove(path);
 }
 
 TEST(Determinism, TheSeedDecidesEverything) {

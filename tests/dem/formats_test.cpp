@@ -1,7 +1,6 @@
 // Round trips through every readable format, faults of foreign files, and the structure of the ParaView file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstring>
 #include <filesystem>
@@ -17,26 +16,12 @@
 #include "dem/state_file.hpp"
 #include "dem/text_output.hpp"
 #include "tests/oracle/network_oracle.hpp"
+#include "tests/oracle/temporary_folder.hpp"
 
 namespace isostat {
 namespace {
 
 using ::testing::HasSubstr;
-
-class Directory {
- public:
-  Directory() : path_(std::filesystem::temp_directory_path() / ("isostat_formats_" + std::to_string(::getpid()))) {
-    std::filesystem::create_directories(path_);
-  }
-  ~Directory() { std::filesystem::remove_all(path_); }
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-  std::size_t files() const {
-    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path_), {}));
-  }
-
- private:
-  std::filesystem::path path_;
-};
 
 template <int D>
 Packing<D> with_kinds(Packing<D> p) {
@@ -90,7 +75,7 @@ void expect_same_motion(const Bodies<D>& a, const Bodies<D>& b) {
 
 // Every double survives: 17 digits are enough.
 TEST(Csv, RoundTripIsBitForBit) {
-  Directory dir;
+  TemporaryFolder dir;
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     const Packing<2> p = with_kinds(oracle::random_packing(seed, 20, 40, true));
     write_text_files({{dir / "p.grains.csv", grains_csv(p)}, {dir / "p.contacts.csv", contacts_csv(p)}});
@@ -108,7 +93,7 @@ TEST(Csv, RoundTripIsBitForBit) {
 }
 
 TEST(Csv, RoundTripInSpace) {
-  Directory dir;
+  TemporaryFolder dir;
   const Packing<3> p = spheres();
   write_text_files({{dir / "p.grains.csv", grains_csv(p)}, {dir / "p.contacts.csv", contacts_csv(p)}});
   PackingReading reading;
@@ -128,7 +113,7 @@ TEST(Csv, ColumnsOfTheContract) {
 }
 
 TEST(Csv, ForeignGrainsAloneFindTheirContacts) {
-  Directory dir;
+  TemporaryFolder dir;
   write_text_files({{dir / "g.csv", "r, id, y, x, colour\n0.5,7,0,0.25,red\n0.5,9,0,3.25,blue\n"}});
   EXPECT_TRUE(read_packing(dir / "g.csv").packing.links.empty());
   PackingReading reading;
@@ -141,7 +126,7 @@ TEST(Csv, ForeignGrainsAloneFindTheirContacts) {
 }
 
 TEST(Csv, ContactsWithoutShiftsMeanTheNearestImage) {
-  Directory dir;
+  TemporaryFolder dir;
   write_text_files(
       {{dir / "g.grains.csv", "id,x,y,r\n1,0.25,0,0.5\n2,3.25,0,0.5\n"}, {dir / "g.contacts.csv", "i,j\n1,2\n"}});
   PackingReading reading;
@@ -161,7 +146,7 @@ std::string faults_of(const std::string& path, const PackingReading& reading = {
 }
 
 TEST(Csv, ListsEveryFaultWithItsLine) {
-  Directory dir;
+  TemporaryFolder dir;
   write_text_files({{dir / "g.csv", "id,x,y,r\n1,0,0,-1\n1,nan,0,0.5\nq,0,0,0.5\n"}});
   const std::string text = faults_of(dir / "g.csv");
   EXPECT_THAT(text, HasSubstr("g.csv:2: r = -1: must be positive"));
@@ -181,7 +166,7 @@ TEST(Csv, ListsEveryFaultWithItsLine) {
 }
 
 TEST(Dump, RoundTripIsBitForBit) {
-  Directory dir;
+  TemporaryFolder dir;
   for (const bool periodic : {true, false}) {
     const Packing<2> p = with_kinds(oracle::random_packing(4, 15, 30, periodic));
     write_text_files({{dir / "p.dump", grains_dump(p, 12)}, {dir / "p.contacts.dump", links_dump(p, 12)}});
@@ -210,7 +195,7 @@ constexpr const char* kForeignDump =
     "ITEM: ATOMS id xs ys diameter c_stress\n5 0.5 0.25 1 9\n6 0.75 0.25 0.5 9\n";
 
 TEST(Dump, ReadsTheLastFrameInScaledCoordinates) {
-  Directory dir;
+  TemporaryFolder dir;
   write_text_files({{dir / "l.dump", kForeignDump}});
   const Packing<2> p = read_packing(dir / "l.dump").packing;
   EXPECT_EQ(p.cell->length, (Vec2{{4, 8}}));
@@ -220,7 +205,7 @@ TEST(Dump, ReadsTheLastFrameInScaledCoordinates) {
 }
 
 TEST(Dump, RefusesTruncatedTiltedAndForeignText) {
-  Directory dir;
+  TemporaryFolder dir;
   const std::string whole = kForeignDump;
   write_text_files({{dir / "l.dump", whole.substr(0, whole.find("6 0.75"))}});
   EXPECT_THAT(faults_of(dir / "l.dump"), HasSubstr("1 rows are missing"));
@@ -234,7 +219,7 @@ TEST(Dump, RefusesTruncatedTiltedAndForeignText) {
 
 // Whatever is cut off or garbled, the answer is a packing or an InputError.
 TEST(PackingFile, DamagedTextIsReadOrRefused) {
-  Directory dir;
+  TemporaryFolder dir;
   const Packing<2> p = with_kinds(oracle::random_packing(4, 3, 4, true));
   const std::vector<std::pair<std::string, std::string>> files{{"p.grains.csv", grains_csv(p)},
                                                                {"p.contacts.csv", contacts_csv(p)},
@@ -263,7 +248,7 @@ TEST(PackingFile, DamagedTextIsReadOrRefused) {
 }
 
 TEST(PackingFile, CellOfOtherUnitsIsRefused) {
-  Directory dir;
+  TemporaryFolder dir;
   write_text_files({{dir / "g.csv", "id,x,y,r\n1,0,0,1\n"}, {dir / "g.net", "cell 1e-4 1\ngrain 1 0 0 1\n"}});
   PackingReading reading;
   reading.box = {1, 0.09};
@@ -277,7 +262,7 @@ TEST(PackingFile, CellOfOtherUnitsIsRefused) {
 
 // What can be read can be kept as a state: squares of the lengths are numbers, and the cell has a size.
 TEST(PackingFile, LengthsBeyondTheNumbersAreRefused) {
-  Directory dir;
+  TemporaryFolder dir;
   const auto faults = [&](const std::string& name, const std::string& text) {
     write_text_files({{dir / name, text}});
     return faults_of(dir / name);
@@ -296,7 +281,7 @@ TEST(PackingFile, LengthsBeyondTheNumbersAreRefused) {
 }
 
 TEST(PackingFile, IsKnownByItsContent) {
-  Directory dir;
+  TemporaryFolder dir;
   write_text_files({{dir / "state.csv", std::string("\x89HDF\r\n\x1a\n", 8)},
                     {dir / "net.csv", "# a network\n\ngrain 1 0 0 1\n"},
                     {dir / "dump.net", "ITEM: TIMESTEP\n"},
@@ -316,7 +301,7 @@ TEST(PackingFile, IsKnownByItsContent) {
 }
 
 TEST(PackingFile, StateRoundTrip) {
-  Directory dir;
+  TemporaryFolder dir;
   const Packing<2> p = with_kinds(oracle::random_packing(6, 15, 30, true));
   write_state(foreign_state(p), dir / "p.h5");
   const PackingFile file = read_packing(dir / "p.h5");
@@ -334,7 +319,7 @@ TEST(PackingFile, StateRoundTrip) {
 }
 
 TEST(PackingFile, BoxGoesOnlyToWhatHasNone) {
-  Directory dir;
+  TemporaryFolder dir;
   write_text_files({{dir / "c.net", "cell 4 4\ngrain 1 0 0 1\n"},
                     {dir / "i.net", "grain 1 0.5 0 1\ngrain 2 3.5 0 1\ncontact 1 2 c\n"}});
   PackingReading reading;
@@ -348,11 +333,11 @@ TEST(PackingFile, BoxGoesOnlyToWhatHasNone) {
 }
 
 TEST(TextOutput, AllFilesOrNone) {
-  Directory dir;
+  TemporaryFolder dir;
   EXPECT_THROW(write_text_files({{dir / "a", "1"}, {dir / "no/such/b", "2"}}), InputError);
-  EXPECT_EQ(dir.files(), 0u);
+  EXPECT_EQ(dir.entries(), 0u);
   write_text_files({{dir / "a", "1"}, {dir / "b", "2"}});
-  EXPECT_EQ(dir.files(), 2u);
+  EXPECT_EQ(dir.entries(), 2u);
 }
 
 TEST(Xyz, HasLatticeAndOneRowAGrain) {

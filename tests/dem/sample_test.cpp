@@ -3,7 +3,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -11,6 +10,7 @@
 
 #include "dem/input_error.hpp"
 #include "dem/scales.hpp"
+#include "tests/oracle/temporary_folder.hpp"
 
 namespace isostat {
 namespace {
@@ -20,12 +20,9 @@ using ::testing::HasSubstr;
 class StartFromFile : public ::testing::Test {
  protected:
   StartFromFile() {
-    path_ =
-        (std::filesystem::temp_directory_path() / ("isostat-sample-" + std::to_string(::getpid()) + ".net")).string();
     scene_.grains.file = path_;
     scene_.law.normal_stiffness = 1e4;
   }
-  ~StartFromFile() override { std::filesystem::remove(path_); }
 
   void file(const std::string& text) const { std::ofstream(path_) << text; }
   std::string refusal() const {
@@ -37,7 +34,8 @@ class StartFromFile : public ::testing::Test {
     return "";
   }
 
-  std::string path_;
+  TemporaryFolder folder_;
+  std::string path_ = folder_ / "start.net";
   Scene scene_;
 };
 

@@ -24,29 +24,13 @@
 #include "dem/state_check.hpp"
 #include "dem/state_seal.hpp"
 #include "tests/oracle/random_state.hpp"
+#include "tests/oracle/temporary_folder.hpp"
 
 namespace isostat {
 namespace {
 
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
-
-// A directory of this test's own, removed afterwards.
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "isostat-XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
-  }
-  ~Folder() { fs::remove_all(path_); }
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-  std::size_t entries() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(path_), fs::directory_iterator()));
-  }
-
- private:
-  fs::path path_;
-};
 
 std::string message_of(const std::function<void()>& action) {
   try {
@@ -71,7 +55,7 @@ RC_GTEST_PROP(StateFile, EverythingComesBack, (std::uint64_t seed)) {
 }
 
 TEST(StateFile, SameStateSameBytesOnDisk) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const State state = random_state(3, 50, 90);
   write_state(state, folder / "a.h5");
   write_state(state, folder / "b.h5");
@@ -105,7 +89,7 @@ TEST(StateFile, EveryFlippedBitIsBadInput) {
 }
 
 TEST(StateFile, OtherFilesAreBadInput) {
-  const Folder folder;
+  const TemporaryFolder folder;
   EXPECT_THAT(message_of([&] { read_state(folder / "none.h5"); }), HasSubstr("No such file"));
   EXPECT_THAT(message_of([&] { read_state("/tmp"); }), HasSubstr("directory"));
   std::ofstream(folder / "text.h5") << "hello";
@@ -221,7 +205,7 @@ TEST(StateFile, EveryInnerFaultIsNamed) {
 }
 
 TEST(StateFile, ImpossibleStatesAreNotWritten) {
-  const Folder folder;
+  const TemporaryFolder folder;
   State state = random_state(9, 5, 4);
   state.packing.bodies.velocity[2][1] = std::numeric_limits<double>::infinity();
   EXPECT_THROW(write_state(state, folder / "state.h5"), std::invalid_argument);
@@ -232,7 +216,7 @@ TEST(StateFile, ImpossibleStatesAreNotWritten) {
 }
 
 TEST(StateFile, FailedWriteLeavesTheOldFileAndNothingElse) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const State old = random_state(10, 5, 4);
   write_state(old, folder / "state.h5");
   rlimit before{};
@@ -249,7 +233,7 @@ TEST(StateFile, FailedWriteLeavesTheOldFileAndNothingElse) {
 }
 
 TEST(StateFile, UnwritablePathsAreBadInput) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const State state = random_state(12, 3, 2);
   for (const std::string& path : {folder / "no/such/state.h5", std::string("/tmp"), std::string()}) {
     EXPECT_THROW(write_state(state, path), InputError) << path;
@@ -275,7 +259,7 @@ TEST(StateFile, IsReadByTheTenLinesOfTheDocumentation) {
   text << page.rdbuf();
   const std::string fence = "```python\n", all = text.str();
   const std::size_t begin = all.find(fence) + fence.size();
-  const Folder folder;
+  const TemporaryFolder folder;
   State state = random_state(21, 4, 3);
   for (Link<2>& l : state.packing.links) {
     const Bodies<2>& b = state.packing.bodies;

@@ -1,6 +1,5 @@
 #include "tests/fuzz/fuzz_targets.hpp"
 
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -16,6 +15,7 @@
 #include "dem/scene_text.hpp"
 #include "dem/state_check.hpp"
 #include "dem/state_file.hpp"
+#include "tests/oracle/temporary_folder.hpp"
 
 namespace isostat {
 namespace {
@@ -23,24 +23,6 @@ namespace {
 void require(bool condition, const char* what) {
   if (!condition) throw std::logic_error(what);
 }
-
-// A folder of this process, gone with it.
-class Folder {
- public:
-  Folder() : path_(std::filesystem::temp_directory_path() / ("isostat-fuzz-" + std::to_string(::getpid()))) {
-    std::filesystem::create_directories(path_);
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::string operator/(const char* name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
 
 void write(const std::string& path, std::string_view bytes) {
   std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
@@ -84,7 +66,7 @@ void fuzz_state(std::string_view bytes) {
 }
 
 void fuzz_packing(std::string_view bytes) {
-  static const Folder folder;
+  static const TemporaryFolder folder;
   const std::string grains = folder / "p";
   constexpr std::string_view kDivision = "\n%\n";
   const std::size_t end = bytes.find(kDivision);

@@ -12,6 +12,7 @@
 
 #include "analysis/figure/figure_file.hpp"
 #include "dem/input_error.hpp"
+#include "tests/oracle/temporary_folder.hpp"
 
 namespace isostat {
 namespace {
@@ -122,16 +123,9 @@ TEST(PngCanvas, PixelsAreWhereTheMarksAre) {
 
 class FigureFiles : public ::testing::Test {
  protected:
-  FigureFiles() {
-    std::string name = (std::filesystem::temp_directory_path() / "isostat-XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
-  }
-  ~FigureFiles() override { std::filesystem::remove_all(folder_); }
-  std::string in_folder(const std::string& name) const { return folder_ + "/" + name; }
-  std::size_t files() const {
-    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_), {}));
-  }
-  std::string folder_;
+  std::string in_folder(const std::string& name) const { return folder_ / name; }
+  std::size_t files() const { return folder_.entries(); }
+  TemporaryFolder folder_;
 };
 
 TEST_F(FigureFiles, FormatByExtension) {

@@ -10,6 +10,7 @@
 
 #include "analysis/structure/fractal_fit.hpp"
 #include "dem/input_error.hpp"
+#include "tests/oracle/temporary_folder.hpp"
 
 namespace isostat {
 namespace {
@@ -233,16 +234,11 @@ TEST(BenchPlot, SharesWithZerosAreLinear) {
 
 class PlotFiles : public ::testing::Test {
  protected:
-  PlotFiles() {
-    std::string name = (std::filesystem::temp_directory_path() / "isostat-XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
-  }
-  ~PlotFiles() override { std::filesystem::remove_all(folder_); }
   std::string file(const std::string& name, const std::string& content) const {
-    std::ofstream(folder_ + "/" + name) << content;
-    return folder_ + "/" + name;
+    std::ofstream(folder_ / name) << content;
+    return folder_ / name;
   }
-  std::string folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(PlotFiles, OneMeaningNeedsNoName) {
@@ -258,7 +254,7 @@ TEST_F(PlotFiles, FaultsSayWhatThereIs) {
   EXPECT_NE(message_of([&] { read_plot(two, "series"); }).find("series"), std::string::npos);
   EXPECT_NE(message_of([&] { read_plot(file("n.json", "{}"), ""); }).find("nothing to plot"), std::string::npos);
   EXPECT_NE(message_of([&] { read_plot(file("x.json", "{\"a\": "), ""); }).find("no JSON"), std::string::npos);
-  EXPECT_THROW(read_plot(folder_ + "/missing.json", ""), InputError);
+  EXPECT_THROW(read_plot(folder_ / "missing.json", ""), InputError);
   EXPECT_THROW(read_plot(file("x.txt", ""), ""), InputError);
 }
 
