@@ -1,6 +1,5 @@
 #include "tests/fuzz/fuzz_targets.hpp"
 
-
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
