@@ -100,27 +100,29 @@ def memory(program, directory, cell, grains):
 
 
 def work_precision(program):
-    """An experiment takes milliseconds: CPU time is the least of many runs, less that of a program that does nothing."""
-    start = min(measured(program, "lab", "--help")[1] for _ in range(20))
+    """An experiment takes milliseconds, less than the program takes to start: its CPU time is that of a step, from two fine
+    step sizes (least of several runs), times the number of steps."""
+    experiments = {"pair restitution": ("pair", "restitution"), "double triangle N_outer": ("cluster", "double-triangle"),
+                   "oblique impact": ("pair", "oblique")}
+    fine, finer, finest = 0.004, 0.002, 0.001
 
-    def timed(step, *words):
-        command = (program, "lab", *words, "--step", str(step))
-        seconds = min(measured(*command)[1] for _ in range(20)) - start
-        return json.loads(measured(*command)[0]), round(max(seconds, 0), 5)
+    def seconds_times_step(words):
+        coarse, dense = (min(measured(program, "lab", *words, "--step", str(s))[1] for _ in range(7)) for s in (fine, finest))
+        return (dense - coarse) / (1 / finest - 1 / fine)
 
-    rows, fine = [], 0.002
-    outer = run(program, "cluster", "double-triangle", "--step", str(fine))["N_outer"]
-    oblique = run(program, "pair", "oblique", "--step", str(fine))["oblique"]
+    cost = {name: seconds_times_step(words) for name, words in experiments.items()}
+    outer = run(program, "cluster", "double-triangle", "--step", str(finer))["N_outer"]
+    oblique = run(program, "pair", "oblique", "--step", str(finer))["oblique"]
+    rows = []
     for step in STEPS:
-        answer, seconds = timed(step, "pair", "restitution")
-        r = answer["restitution"]
-        rows.append(("pair restitution", step, seconds, abs(r["mean"] - r["exact"]), r["spread"]))
-        answer, seconds = timed(step, "cluster", "double-triangle")
-        rows.append(("double triangle N_outer", step, seconds, abs(answer["N_outer"] - outer), ""))
-        answer, seconds = timed(step, "pair", "oblique")
-        rows.append(("oblique impact", step, seconds,
-                     max(abs(a["tangential"] - b["tangential"]) for a, b in zip(answer["oblique"], oblique)),
-                     max(a["spread"] for a in answer["oblique"])))
+        answer = {name: run(program, *words, "--step", str(step)) for name, words in experiments.items()}
+        r = answer["pair restitution"]["restitution"]
+        impacts = answer["oblique impact"]["oblique"]
+        errors = {"pair restitution": (abs(r["mean"] - r["exact"]), r["spread"]),
+                  "double triangle N_outer": (abs(answer["double triangle N_outer"]["N_outer"] - outer), ""),
+                  "oblique impact": (max(abs(a["tangential"] - b["tangential"]) for a, b in zip(impacts, oblique)),
+                                     max(a["spread"] for a in impacts))}
+        rows += [(name, step, f"{cost[name] / step:.3g}", *error) for name, error in errors.items()]
     write("work_precision.csv", "label,step_fraction,cpu_seconds,error,spread", rows)
 
 
