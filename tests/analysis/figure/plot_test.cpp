@@ -44,7 +44,8 @@ std::string message_of(const auto& action) {
 
 // Eq. 28 against 2F1 to 14 digits, near d_F = 2 relative to its value at k = 0 since it vanishes there.
 TEST(ScatteringPlot, CurveAgreesWithTheTable) {
-  for (const Json& row : parsed("/geometry/hyp2f1_table.json")["rows"]) {
+  const Json table = parsed("/geometry/hyp2f1_table.json");
+  for (const Json& row : table["rows"]) {
     const double d = row[0], x = row[1], expected = row[2];
     for (const double xi : {1.0, 7.3}) {
       const double scale = 2.5 * std::tgamma(d) * std::pow(xi, d);
