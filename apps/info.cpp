@@ -40,9 +40,7 @@ Json scene_json(Scene scene) {
   for (std::size_t k = 0; k < scene.stages.size(); ++k) json["stage"].push_back(Json::object());
   for (const SceneKey& key : scene_keys()) {
     if (!applies(key, scene)) continue;
-    const std::size_t dot = key.name.find('.');
-    const std::string table(key.name.substr(0, dot == std::string_view::npos ? 0 : dot));
-    const std::string leaf(key.name.substr(dot == std::string_view::npos ? 0 : dot + 1));
+    const std::string table = table_of(key), leaf(leaf_of(key));
     if (belongs_to_stage(key))
       for (std::size_t k = 0; k < scene.stages.size(); ++k) json["stage"][k][leaf] = key_value(key, scene, k);
     else

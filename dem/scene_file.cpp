@@ -189,9 +189,8 @@ class Parser {
     std::vector<std::string> names;
     for (const SceneKey& row : scene_keys()) {
       names.push_back(full_name(row, stage_of(key).value_or(0)));
-      if (const std::size_t dot = row.name.find('.');
-          dot != std::string_view::npos && row.name.substr(0, dot) != "stage")
-        names.emplace_back(row.name.substr(0, dot));
+      if (std::string table = table_of(row); !table.empty() && !belongs_to_stage(row))
+        names.push_back(std::move(table));
     }
     const std::string hint = did_you_mean(key, names);
     return "unknown key; " + (hint.empty() ? "docs/scene.md lists all keys" : hint);

@@ -1,14 +1,14 @@
 #include "analysis/finishing/gmres.hpp"
 
 #include <cmath>
-#include <numeric>
+
+#include "analysis/vector_algebra.hpp"
 
 namespace isostat {
 namespace {
 
 using Vector = std::vector<double>;
 
-double inner(const Vector& a, const Vector& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); }
 void add(Vector& a, double factor, const Vector& b) {
   for (std::size_t k = 0; k < a.size(); ++k) a[k] += factor * b[k];
 }
@@ -23,7 +23,7 @@ LinearSolution gmres(const LinearMap& apply, const LinearMap& precondition, cons
                      int most) {
   LinearSolution s;
   s.x.assign(b.size(), 0.0);
-  const double norm_b = std::sqrt(inner(b, b));
+  const double norm_b = std::sqrt(dot(b, b));
   if (!(norm_b > 0)) {
     s.residual = 0;
     return s;
@@ -36,10 +36,10 @@ LinearSolution gmres(const LinearMap& apply, const LinearMap& precondition, cons
     Vector w = apply(precondition(v[n]));
     Vector h(n + 2);
     for (std::size_t q = 0; q <= n; ++q) {
-      h[q] = inner(w, v[q]);
+      h[q] = dot(w, v[q]);
       add(w, -h[q], v[q]);
     }
-    h[n + 1] = std::sqrt(inner(w, w));
+    h[n + 1] = std::sqrt(dot(w, w));
     if (h[n + 1] > 0) v.push_back(scaled(1 / h[n + 1], std::move(w)));
     const bool exact = !(h[n + 1] > 0);
     for (std::size_t q = 0; q < n; ++q) {

@@ -7,6 +7,7 @@
 #include "analysis/finishing/gmres.hpp"
 #include "analysis/finishing/repeated_cholesky.hpp"
 #include "analysis/finishing/settling_network.hpp"
+#include "analysis/vector_algebra.hpp"
 #include "dem/energy.hpp"
 #include "dem/equilibrium.hpp"
 
@@ -36,12 +37,6 @@ constexpr double kFreed = 10, kCaptures = 10;  // the kinetic energy may reach s
 constexpr double kShift = 1e-9;    // of K_N: inertia / dt^2 is never less, so that floppy modes stay regular
 constexpr double kTarget = 1e-10;  // [F1] net force, [F1 a] moment, [F1/a] stress error at rest
 constexpr double kRounding = 4;    // of the force K_N eps max(L) of one rounding of a coordinate
-
-double largest(const Vector& v) {
-  double m = 0;
-  for (double x : v) m = std::isnan(x) || std::abs(x) > m ? std::abs(x) : m;
-  return m;
-}
 
 class Settling {
  public:

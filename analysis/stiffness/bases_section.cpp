@@ -10,6 +10,7 @@
 #include "analysis/rigidity/sections.hpp"
 #include "analysis/stiffness/bases.hpp"
 #include "analysis/stiffness/sparse_cholesky.hpp"
+#include "analysis/vector_algebra.hpp"
 
 namespace isostat {
 namespace {
@@ -59,12 +60,6 @@ std::array<double, 3> motion_of(const Question& q, const Vector& u, std::size_t 
   return {u[per_body * grain], u[per_body * grain + 1], per_body == 3 ? u[per_body * grain + 2] : 0.0};
 }
 
-double largest(const Vector& v) {
-  double m = 0;
-  for (double x : v) m = std::max(m, std::abs(x));
-  return m;
-}
-
 Json floppy_json(const Question& q, std::int64_t of) {
   Json list = Json::array();
   for (const NullVector& v : floppy_modes(q.packing, q.law, q.cell_free, q.most)) {
@@ -93,11 +88,7 @@ Json split_json(const Question& q, const AnalysisInput& input) {
   if (!read_forces(input).known) return nullptr;
   const Vector forces = link_forces(q.packing, q.g);
   const ForceSplit split = split_forces(q.packing, q.law, q.cell_free, forces);
-  const auto length = [](const Vector& v) {
-    double sum = 0;
-    for (double x : v) sum += x * x;
-    return std::sqrt(sum);
-  };
+  const auto length = [](const Vector& v) { return std::sqrt(dot(v, v)); };
   return {{"forces", length(forces)},
           {"balancing", length(split.balancing)},
           {"self_stress", length(split.self_stress)},

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "geometry/union_find.hpp"
+
 namespace isostat {
 namespace {
 
@@ -145,23 +147,11 @@ LowestModes lanczos_modes(const SymmetricMatrix& a, std::size_t rank, int count,
 // thousands of them, and equal pairs of grains have equal eigenvalues, of which Lanczos on the whole finds one.
 std::vector<std::vector<std::size_t>> coupled_blocks(const SymmetricMatrix& a) {
   const auto n = static_cast<std::size_t>(a.size);
-  std::vector<std::size_t> parent(n);
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
-  const auto find = [&](std::size_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  UnionFind coupled(n);
   for (std::size_t c = 0; c < n; ++c)
     for (auto e = static_cast<std::size_t>(a.start[c]); e < static_cast<std::size_t>(a.start[c + 1]); ++e)
-      parent[find(static_cast<std::size_t>(a.row[e]))] = find(c);
-  std::vector<std::vector<std::size_t>> blocks;
-  std::vector<std::size_t> block_of(n, n);
-  for (std::size_t c = 0; c < n; ++c) {
-    std::size_t& block = block_of[find(c)];
-    if (block == n) block = blocks.size(), blocks.emplace_back();
-    blocks[block].push_back(c);
-  }
-  return blocks;
+      coupled.join(static_cast<std::size_t>(a.row[e]), c);
+  return coupled.sets();
 }
 
 SymmetricMatrix block_matrix(const SymmetricMatrix& a, const std::vector<std::size_t>& columns,

@@ -1,10 +1,9 @@
 #include "analysis/stiffness/moduli.hpp"
 
-#include <numeric>
-
 #include "analysis/rigidity/independent_columns.hpp"
 #include "analysis/stiffness/pseudo_inverse.hpp"
 #include "analysis/stiffness/stiffness_matrix.hpp"
+#include "analysis/vector_algebra.hpp"
 #include "dem/link.hpp"
 
 namespace isostat {
@@ -27,10 +26,6 @@ std::array<std::vector<double>, 3> strain_velocities(const Packing<2>& packing, 
     }
   }
   return s;
-}
-
-double dot(const std::vector<double>& a, const std::vector<double>& b) {
-  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
 }  // namespace

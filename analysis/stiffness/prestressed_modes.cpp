@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "analysis/stiffness/link_tangent.hpp"
 #include "analysis/stiffness/vibration.hpp"
+#include "geometry/union_find.hpp"
 
 namespace isostat {
 namespace {
@@ -119,26 +119,15 @@ std::vector<Pair> arnoldi_pairs(const Piece& piece, int count, double shift, boo
 }
 
 std::vector<std::vector<std::size_t>> linked_pieces(const Packing<2>& packing) {
-  std::vector<std::size_t> parent(packing.bodies.size());
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
-  std::vector<char> linked(parent.size(), 0);
-  const auto find = [&](std::size_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  UnionFind joined(packing.bodies.size());
+  std::vector<char> linked(packing.bodies.size(), 0);
   for (const Link<2>& l : packing.links) {
     const auto i = static_cast<std::size_t>(l.i), j = static_cast<std::size_t>(l.j);
     linked[i] = linked[j] = 1;
-    parent[find(i)] = find(j);
+    joined.join(i, j);
   }
-  std::vector<std::vector<std::size_t>> pieces;
-  std::vector<std::size_t> piece_of(parent.size(), parent.size());
-  for (std::size_t i = 0; i < parent.size(); ++i) {
-    if (!linked[i]) continue;
-    std::size_t& piece = piece_of[find(i)];
-    if (piece == parent.size()) piece = pieces.size(), pieces.emplace_back();
-    pieces[piece].push_back(i);
-  }
+  auto pieces = joined.sets();
+  std::erase_if(pieces, [&](const auto& piece) { return !linked[piece.front()]; });
   return pieces;
 }
 

@@ -1,8 +1,9 @@
 #include "analysis/stiffness/pseudo_inverse.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "analysis/vector_algebra.hpp"
 
 namespace isostat {
 namespace {
@@ -13,12 +14,6 @@ std::vector<char> complement(const std::vector<char>& flags) {
   std::vector<char> c(flags.size());
   for (std::size_t i = 0; i < c.size(); ++i) c[i] = !flags[i];
   return c;
-}
-
-double largest(const std::vector<double>& v) {
-  double m = 0;
-  for (double x : v) m = std::max(m, std::abs(x));
-  return m;
 }
 
 std::vector<double> residual(const SymmetricMatrix& a, const std::vector<double>& b, const std::vector<double>& x) {
