@@ -289,6 +289,11 @@ void NeighbourLists::set_stiffness(double stiffness, const BodiesStore& bodies) 
   }
 }
 
+void NeighbourLists::scale_springs(double tangential, double moment) {
+  for (double& t : tangential_) t *= tangential;
+  for (double& m : moment_) m *= moment;
+}
+
 PairArrays NeighbourLists::arrays() {
   return {i_.data(),          j_.data(),          shift_.data(), damping_coefficient_.data(),
           radius_sum_.data(), tangential_.data(), moment_.data()};

@@ -46,6 +46,7 @@ class NeighbourLists {
   }
 
   void set_stiffness(double stiffness, const BodiesStore& bodies);  // K_N [F0/a], for the damping coefficients
+  void scale_springs(double tangential, double moment);             // T and M of every pair, by these factors
   PairArrays arrays();
   const std::vector<PairGroup>& phase(int p) const { return phases_[p]; }  // 0: chunks, 1-2: between, 3: the rest
   static constexpr int kPhases = 4;

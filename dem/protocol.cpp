@@ -116,7 +116,8 @@ class StageRun {
     LawScene law = s_.scene.law;
     law.normal_stiffness = part < 1 ? from * std::pow(to / from, part) : to;
     s_.law = resolve(law);
-    solver_->set_law(s_.law);
+    solver_->set_law(s_.law,
+                     stage_.stiffening_keeps == "elongations" ? Springs::keep_elongations : Springs::keep_forces);
   }
 
   std::int64_t steps_to_next_stop() const {

@@ -78,15 +78,16 @@ struct StageScene {
   std::vector<double> pressures;                       // [F0/a] the stage once for each; empty in a resolved scene
   std::optional<double> stress_1, stress_2;            // [F0/a] of one direction, compression positive
   std::optional<double> strain_rate_1, strain_rate_2;  // [1/T0] of one direction, compression positive
-  double velocity = 0.0;                   // V0 [V* = sqrt(F0 D0 / m)] rms velocity drawn at the start; 0: keep
-  double max_strain_rate = 0.05;           // [1/T0] cap of the cell's strain rate; 0: no cap
-  std::optional<double> normal_stiffness;  // K_N [F0/a] that the contacts are brought to; absent: it stays
-  double stiffening_time = 200.0;          // [T0] of the exponential change of K_N
-  std::string until = "equilibrium";       // "aggregated", "time", "strain", "failure"
-  double time = 0.0;                       // [T0] length of the stage with until = "time"
-  double strain = 0.0;                     // [-] |1 - L/L0| of a driven direction that ends the stage
-  double drop = 0.5;                       // [-] part of the peak stress whose loss is failure
-  double max_time = 20000.0;               // [T0] give up (exit code 3) after so long
+  double velocity = 0.0;                    // V0 [V* = sqrt(F0 D0 / m)] rms velocity drawn at the start; 0: keep
+  double max_strain_rate = 0.05;            // [1/T0] cap of the cell's strain rate; 0: no cap
+  std::optional<double> normal_stiffness;   // K_N [F0/a] that the contacts are brought to; absent: it stays
+  double stiffening_time = 200.0;           // [T0] of the exponential change of K_N
+  std::string stiffening_keeps = "forces";  // of the springs: "forces" or "elongations"
+  std::string until = "equilibrium";        // "aggregated", "time", "strain", "failure"
+  double time = 0.0;                        // [T0] length of the stage with until = "time"
+  double strain = 0.0;                      // [-] |1 - L/L0| of a driven direction that ends the stage
+  double drop = 0.5;                        // [-] part of the peak stress whose loss is failure
+  double max_time = 20000.0;                // [T0] give up (exit code 3) after so long
   friend bool operator==(const StageScene&, const StageScene&) = default;
 };
 

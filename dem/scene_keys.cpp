@@ -242,13 +242,18 @@ std::vector<SceneKey> make_table() {
        .unit = "F0/a",
        .range = positive,
        .absent = "it stays",
-       .meaning = "K_N that the contacts are brought to, exponentially in time over stage.stiffening_time; tangential "
-                  "forces and rolling moments are kept, K_T and K_r follow unless the scene sets them."},
+       .meaning = "K_N that the contacts are brought to, exponentially in time over stage.stiffening_time; K_T and "
+                  "K_r follow unless the scene sets them."},
       {.name = "stage.stiffening_time",
        .field = in<&S::stages, &StageScene::stiffening_time>,
        .unit = "T0",
        .range = positive,
        .meaning = "Length of the change of K_N; the stage does not end before."},
+      {.name = "stage.stiffening_keeps",
+       .field = in<&S::stages, &StageScene::stiffening_keeps>,
+       .choices = {"forces", "elongations"},
+       .meaning = "What the springs of friction and rolling keep while their stiffness changes: their forces and "
+                  "moments, or their elongations, so that forces grow with K_T and K_r up to their limits."},
       {.name = "stage.until",
        .field = in<&S::stages, &StageScene::until>,
        .choices = {"equilibrium", "aggregated", "time", "strain", "failure"},

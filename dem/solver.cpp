@@ -138,7 +138,7 @@ void Solver::compute_forces(double time_step) {
   for (int a = 0; a < 2; ++a) in.flow_half[a] = flow_.half[a], in.flow_now[a] = flow_.now[a];
   for (std::uint8_t code = 0; code < 9; ++code) {
     const Vec2 offset = cell_.offset(image_shift(code));
-    in.offsets[code][0] = offset[0], in.offsets[code][1] = offset[1];
+    in.offset_x[code] = offset[0], in.offset_y[code] = offset[1];
   }
   force_tally_ = {};
   for (int phase = 0; phase < NeighbourLists::kPhases; ++phase) {
@@ -230,8 +230,13 @@ double Solver::viscous_power() const {
   return power;
 }
 
-void Solver::set_law(const LawParameters& law) {
+void Solver::set_law(const LawParameters& law, Springs springs) {
   if (energies_) ledger_.injected -= elastic_energy();
+  if (springs == Springs::keep_elongations) {
+    const auto growth = [](double now, double before) { return before > 0 ? now / before : 1.0; };
+    lists_.scale_springs(growth(law.tangential_stiffness, law_.tangential_stiffness),
+                         growth(law.rolling_stiffness, law_.rolling_stiffness));
+  }
   lists_.set_stiffness(law.normal_stiffness, bodies_);
   law_ = law;
   prediction_ = velocity_prediction(law_, smallest_mass_, dt_);

@@ -31,6 +31,9 @@ struct StepTimes {
   }
 };
 
+// What the springs of friction and rolling keep when their stiffness changes: T and M, or T/K_T and M/K_r.
+enum class Springs { keep_forces, keep_elongations };
+
 class Solver {
  public:
   // From a state: with its memory the run goes on bit for bit; without (a new or foreign packing) lists and half-step
@@ -44,8 +47,8 @@ class Solver {
   void step();  // throws RunError when it blows up
 
   void set_drag(double rate) { drag_ = rate; }  // [1/T0] global drag -rate m v, -rate I w; 0: none
-  // Other stiffnesses; forces T and moments M of the springs stay as they are, their composition may not change.
-  void set_law(const LawParameters& law);
+  // Other stiffnesses; the composition may not change.
+  void set_law(const LawParameters& law, Springs springs = Springs::keep_forces);
   double time() const { return time_; }
   std::int64_t steps() const { return step_; }
   const PeriodicCell<2>& cell() const { return cell_; }

@@ -40,7 +40,7 @@ struct PairForceInput {
   double time_step = 0;          // [T0]
   double flow_half[2] = {0, 0};  // Ldot_a / L_a at the half step [1/T0]; the affine part of a velocity is flow * r
   double flow_now[2] = {0, 0};   // the same, predicted to the full step
-  double offsets[9][2] = {};     // [a] image offsets by code (s1 + 1) + 3 (s2 + 1)
+  double offset_x[16] = {}, offset_y[16] = {};  // [a] of the image by its code (s1 + 1) + 3 (s2 + 1), 9 of them in use
 };
 
 struct PairForceTally {

@@ -14,13 +14,6 @@ ISOSTAT_INLINE V load(const double* p) {
   return V(p, stdx::element_aligned);
 }
 
-template <class V>
-ISOSTAT_INLINE V image_offset(const PairForceInput& in, std::size_t k, int axis) {
-  alignas(64) double offset[V::size()];
-  for (std::size_t lane = 0; lane < V::size(); ++lane) offset[lane] = in.offsets[in.pairs.shift[k + lane]][axis];
-  return load<V>(offset);
-}
-
 template <class V, class Law, Tally kTally, bool kImages>
 PairForceTally pair_forces(const PairForceInput& input) {
   const PairForceInput in = input;  // a copy that no store can alias: its fields stay in registers
@@ -38,8 +31,8 @@ PairForceTally pair_forces(const PairForceInput& input) {
     PairDifference<V> d = load_differences(in.rows, in.pairs.i + k, in.pairs.j + k, V());
     add_loads(in.loads, in.pairs.i + late, in.pairs.j + late, late_x, late_y, late_a, late_b);
     if constexpr (kImages) {
-      d.x += image_offset<V>(in, k, 0);
-      d.y += image_offset<V>(in, k, 1);
+      d.x += look_up(in.offset_x, in.pairs.shift + k, V());
+      d.y += look_up(in.offset_y, in.pairs.shift + k, V());
     }
     if constexpr (kTally != Tally::nothing) {
       d.u = mul_add<V>(V(in.flow_half[0]), d.x, d.u);

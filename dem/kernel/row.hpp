@@ -55,6 +55,9 @@ ISOSTAT_INLINE PairDifference<Scalar> load_differences(const double* rows, const
   return {b[0] - a[0], b[1] - a[1], b[2] - a[2], b[3] - a[3], b[4] + a[4], b[5] - a[5], b[6] - a[6], b[7] - a[7]};
 }
 
+// table[codes[lane]]; a table has 16 entries, so that two AVX-512 registers hold it.
+ISOSTAT_INLINE Scalar look_up(const double* table, const std::uint8_t* codes, Scalar) { return Scalar(table[*codes]); }
+
 ISOSTAT_INLINE void add_loads(double* loads, const RowOffset* i, const RowOffset* j, Scalar fx, Scalar fy, Scalar a,
                               Scalar b) {
   double* on_i = load_at(loads, *i);
@@ -68,8 +71,10 @@ ISOSTAT_INLINE void add_load_pair(double* loads, RowOffset i, RowOffset j, __m25
   const __m256d sign = _mm256_setr_pd(-1, -1, 1, -1);
   double* on_i = load_at(loads, i);
   double* on_j = load_at(loads, j);
-  _mm256_store_pd(on_i, _mm256_fmadd_pd(f, sign, _mm256_load_pd(on_i)));
-  _mm256_store_pd(on_j, _mm256_add_pd(_mm256_load_pd(on_j), f));
+  const __m256d j_now = _mm256_add_pd(_mm256_load_pd(on_j), f);
+  const __m256d i_now = _mm256_fmadd_pd(f, sign, _mm256_load_pd(on_i));
+  _mm256_store_pd(on_j, j_now);
+  _mm256_store_pd(on_i, i_now);
 }
 #endif
 
@@ -99,6 +104,11 @@ ISOSTAT_INLINE PairDifference<Native> load_differences(const double* rows, const
   auto even = [&](int k) { return Native(_mm512_shuffle_f64x2(t[k], t[k + 4], 0x88)); };
   auto odd = [&](int k) { return Native(_mm512_shuffle_f64x2(t[k], t[k + 4], 0xdd)); };
   return {even(0), even(1), even(2), even(3), odd(0), odd(1), odd(2), odd(3)};
+}
+
+ISOSTAT_INLINE Native look_up(const double* table, const std::uint8_t* codes, Native) {
+  const __m512i lanes = _mm512_cvtepu8_epi64(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(codes)));
+  return Native(_mm512_permutex2var_pd(_mm512_loadu_pd(table), lanes, _mm512_loadu_pd(table + 8)));
 }
 
 ISOSTAT_INLINE void add_loads(double* loads, const RowOffset* i, const RowOffset* j, Native fx, Native fy, Native a,
@@ -148,6 +158,10 @@ ISOSTAT_INLINE PairDifference<Native> load_differences(const double* rows, const
   return {l.c0, l.c1, l.c2, l.c3, h.c0, h.c1, h.c2, h.c3};
 }
 
+ISOSTAT_INLINE Native look_up(const double* table, const std::uint8_t* codes, Native) {
+  return Native(_mm256_setr_pd(table[codes[0]], table[codes[1]], table[codes[2]], table[codes[3]]));
+}
+
 ISOSTAT_INLINE void add_loads(double* loads, const RowOffset* i, const RowOffset* j, Native fx, Native fy, Native a,
                               Native b) {
   const __m256d columns[4] = {static_cast<__m256d>(fx), static_cast<__m256d>(fy), static_cast<__m256d>(a),
@@ -170,6 +184,10 @@ ISOSTAT_INLINE PairDifference<Twin<V>> load_differences(const double* rows, cons
   const PairDifference<V> b = load_differences(rows, i + V::size(), j + V::size(), V());
   return {{a.x, b.x},       {a.y, b.y}, {a.u, b.u}, {a.v, b.v}, {a.surface_sum, b.surface_sum},
           {a.spin, b.spin}, {a.p, b.p}, {a.q, b.q}};
+}
+template <class V>
+ISOSTAT_INLINE Twin<V> look_up(const double* table, const std::uint8_t* codes, Twin<V>) {
+  return {look_up(table, codes, V()), look_up(table, codes + V::size(), V())};
 }
 template <class V>
 ISOSTAT_INLINE void add_loads(double* loads, const RowOffset* i, const RowOffset* j, const Twin<V>& fx,

@@ -72,7 +72,7 @@ struct Fixture {
     in.images = images;
     in.flow_half[0] = -0.3, in.flow_half[1] = 0.2, in.flow_now[0] = -0.31, in.flow_now[1] = 0.19;
     const double length[2] = {7, 9};
-    for (int c = 0; c < 9; ++c) in.offsets[c][0] = (c % 3 - 1) * length[0], in.offsets[c][1] = (c / 3 - 1) * length[1];
+    for (int c = 0; c < 9; ++c) in.offset_x[c] = (c % 3 - 1) * length[0], in.offset_y[c] = (c / 3 - 1) * length[1];
 
     for (std::size_t k = 0; k < 2 * kPairs; ++k) {
       const double radius = between(0.2, 0.5), mass = 4 * radius * radius;
@@ -92,8 +92,8 @@ struct Fixture {
       const double gap = k % 7 == 0 ? between(0.05, 0.5) : k % 3 == 0 ? between(0, 0.05) : between(-0.02, 0);
       const double angle = between(0, 6.28), distance = sum[k] + gap;
       double* row = bodies.row(b);
-      row[0] = bodies.row(a)[0] + distance * std::cos(angle) - in.offsets[code][0];
-      row[1] = bodies.row(a)[1] + distance * std::sin(angle) - in.offsets[code][1];
+      row[0] = bodies.row(a)[0] + distance * std::cos(angle) - in.offset_x[code];
+      row[1] = bodies.row(a)[1] + distance * std::sin(angle) - in.offset_y[code];
       const double reduced = ca.mass * cb.mass / (ca.mass + cb.mass);
       damping[k] = law.damping * 2 * std::sqrt(law.normal_stiffness * reduced);
       if (gap < 0 && law.friction > 0) tangential[k] = between(-8, 8);  // up to mu N_e = 8: some slide
@@ -101,9 +101,9 @@ struct Fixture {
     }
     for (std::size_t k = 0; k < kPairs; ++k) {
       const std::size_t a = first[k], b = second[k];
-      const double *ra = bodies.row(a), *rb = bodies.row(b), *o = in.offsets[shift[k]];
+      const double *ra = bodies.row(a), *rb = bodies.row(b);
       oracle::PairMoment p;
-      p.x = rb[0] + o[0] - ra[0], p.y = rb[1] + o[1] - ra[1];
+      p.x = rb[0] + in.offset_x[shift[k]] - ra[0], p.y = rb[1] + in.offset_y[shift[k]] - ra[1];
       p.radius_i = bodies.constants[a].radius, p.radius_j = bodies.constants[b].radius;
       p.mass_i = bodies.constants[a].mass, p.mass_j = bodies.constants[b].mass;
       p.u = rb[2] - ra[2], p.v = rb[3] - ra[3], p.p = rb[6] - ra[6], p.q = rb[7] - ra[7];

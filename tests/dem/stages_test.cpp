@@ -10,6 +10,7 @@
 #include "dem/protocol.hpp"
 #include "dem/sample.hpp"
 #include "dem/scene_file.hpp"
+#include "dem/solver.hpp"
 #include "dem/state_file.hpp"
 
 namespace isostat {
@@ -79,8 +80,30 @@ TEST(Stages, StiffeningFollowsTheExponentialAndKeepsTheEnergyLedger) {
   EXPECT_EQ(whole.law.normal_stiffness, 1e4);
 }
 
+TEST(Stages, StiffeningKeepsTheForcesOfTheSpringsOrTheirElongations) {
+  LawScene stiffer = aggregate().scene.law;
+  stiffer.normal_stiffness *= 3;
+  for (const Springs kept : {Springs::keep_forces, Springs::keep_elongations}) {
+    State s = aggregate();
+    Solver solver(s, {});
+    solver.set_law(resolve(stiffer), kept);
+    solver.snapshot(s);
+    const auto &before = aggregate().packing.links, &after = s.packing.links;
+    ASSERT_EQ(after.size(), before.size());
+    double springs = 0;
+    for (std::size_t k = 0; k < after.size(); ++k) {
+      const double factor = kept == Springs::keep_forces ? 1 : 3;
+      EXPECT_DOUBLE_EQ(after[k].tangential_force, factor * before[k].tangential_force);
+      EXPECT_DOUBLE_EQ(after[k].moment, factor * before[k].moment);
+      springs += std::abs(before[k].tangential_force);
+    }
+    EXPECT_GT(springs, 0);
+  }
+}
+
 TEST(Stages, StiffeningRestartsBitForBit) {
   StageScene stage;
+  stage.stiffening_keeps = "elongations";
   stage.normal_stiffness = 1e4, stage.stiffening_time = 2, stage.until = "time", stage.time = 1.5;
   const State straight = go_on(stage);
   State s = aggregate();
