@@ -5,6 +5,7 @@
 // Bodies are cut into chunks of consecutive storage order, a number that depends on N only. Pairs inside a chunk,
 // pairs between a chunk and the next, and the rest go to groups of their own; groups of one phase touch disjoint
 // bodies. So threads need no locks, and the order of every sum is the same for any number of threads.
+// Within a group the pairs of a body stand in the order of the list, batches apart if the sample fits into the caches.
 #pragma once
 #include <cstdint>
 #include <vector>

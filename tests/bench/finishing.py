@@ -22,7 +22,8 @@ ROOT = os.path.abspath(os.path.join(HERE, "..", ".."))
 SCENES = os.path.join(ROOT, "data", "scenes")
 OUTPUT = os.path.join(ROOT, "docs", "results", "finishing.csv")
 METHODS = ("none", "drag", "newton")
-NUMBERS = ("solid_fraction", "z", "z_star", "N_plus", "N_minus", "zero_fraction", "max_force", "cpu_seconds")
+NUMBERS = ("solid_fraction", "z", "z_star", "N_plus", "N_minus", "zero_fraction", "above_tenth_fraction", "max_force",
+           "cpu_seconds")
 HEADER = ("scene", "rolling", "seed", "finishing", "equilibrated") + NUMBERS
 CASES = (("disks-method1", False, 8), ("disks-method1-cohesionless", False, 8), ("disks-method1", True, 4),
          ("disks-method2-a, P* = 0", False, 4), ("disks-method2-a, last stage", False, 6),
@@ -84,7 +85,7 @@ def sample(program, grains, scene, rolling, seed):
             counts, forces, certificate = report["counts"], report["forces"], report["equilibrium"]
             rows.append((scene, truth, seed, method, int(certificate["equilibrated"]), counts["solid_fraction"], counts["z"],
                          counts["z_star"], forces["N_plus"], forces["N_minus"], forces["zero_fraction"],
-                         certificate["max_force"], seconds))
+                         forces["above_tenth_fraction"], certificate["max_force"], seconds))
     return rows
 
 
@@ -100,7 +101,7 @@ def summary(rows):
                   *(f"{n} {statistics.mean(m[n] or 0 for m in mine):.6g}" for n in NUMBERS))
         pairs = [s for s in seeds.values() if all(s[m]["equilibrated"] for m in METHODS)]
         for method in METHODS[1:] if len(pairs) > 1 else ():
-            for n in NUMBERS[:6]:
+            for n in NUMBERS[:7]:
                 d = [(s[method][n] or 0) - (s["none"][n] or 0) for s in pairs]
                 print(f"  {method} - none: {n} {statistics.mean(d):+.6f} +- {statistics.stdev(d) / math.sqrt(len(d)):.6f}"
                       f" (sd of none {statistics.stdev(s['none'][n] or 0 for s in pairs):.6f}, {len(d)} pairs)")

@@ -189,7 +189,8 @@ TEST(NeighbourLists, HoldEveryInteractionOnceWhateverTheCellDoes) {
                         Case{"two disks", 2, 0.3, 0.8, 0.5, 1, 5, 0.05, 300, 1},
                         Case{"two equal disks, tiny cell", 2, 0.3, 0.56, 0.99, 1, 0, 0.05, 300, 3},
                         Case{"three disks in a narrow strip", 3, 0.3, 0.75, 0.9, 3.2, 0, 0.05, 300, 2},
-                        Case{"expansion", 60, 0.5, 0.92, 0.5, 1, -100, 0.05, 300, 30}}) {
+                        Case{"expansion", 60, 0.5, 0.92, 0.5, 1, -100, 0.05, 300, 30},
+                        Case{"more pairs than a deck", 300, 0.5, 0.92, 0.5, 1, 200, 0.05, 140, 300}}) {
     SCOPED_TRACE(c.name);
     RandomDisks r;
     r.count = c.count, r.solid_fraction = c.solid_fraction, r.squeeze = c.squeeze, r.aspect = c.aspect;
