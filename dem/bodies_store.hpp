@@ -1,5 +1,6 @@
 // The bodies as the kernels see them: rows, loads, constants (see kernel/row.hpp), in storage order, which follows the
-// cells of the neighbour grid. Two rows beyond the last body are the far-apart pair that pads segments.
+// cells of the neighbour grid. Beyond the last body lie pairs of far-apart rows that pad segments: one for each group of
+// a phase, because threads add to their loads at the same time.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -26,9 +27,9 @@ struct BodiesStore {
   std::size_t size() const { return id.size(); }
   void resize(std::size_t n) {
     id.resize(n);
-    rows.assign((n + 2) * kernel::kRowWidth, 0.0);
-    rows[(n + 1) * kernel::kRowWidth] = kFar;
-    loads.assign((n + 2) * kernel::kLoadWidth, 0.0);
+    rows.assign((n + 2 * kPads) * kernel::kRowWidth, 0.0);
+    for (std::size_t k = 0; k < kPads; ++k) *row(pad(n, k) + 1) = kFar;
+    loads.assign((n + 2 * kPads) * kernel::kLoadWidth, 0.0);
     constants.resize(n);
     inertia.resize(n);
   }
@@ -37,6 +38,10 @@ struct BodiesStore {
   double* load(std::size_t k) { return loads.data() + k * kernel::kLoadWidth; }
   const double* load(std::size_t k) const { return loads.data() + k * kernel::kLoadWidth; }
   Vec2 position(std::size_t k) const { return {{row(k)[0], row(k)[1]}}; }
+
+  static constexpr std::size_t kPads = 64;
+  // The first body of the k-th padding pair of n bodies; the second follows it.
+  static constexpr std::size_t pad(std::size_t n, std::size_t k) { return n + 2 * k; }
 
  private:
   static constexpr double kFar = 1e6;  // [a] beyond any interaction; the distance of the padding pair

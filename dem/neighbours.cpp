@@ -15,7 +15,7 @@ constexpr double kInnerSteps = 100;          // steps that the inner skin should
 constexpr double kSmallestInnerSkin = 5e-4;  // [smallest diameter]
 constexpr double kLargestInnerSkin = 0.3;    // [outer skin]
 constexpr std::size_t kBodiesPerChunk = 4096;
-constexpr int kMostChunks = 64;
+constexpr int kMostChunks = BodiesStore::kPads;
 
 struct Grid {
   int n[2];
@@ -246,8 +246,14 @@ void NeighbourLists::filter_inner(const BodiesStore& bodies, const std::vector<P
   std::vector<std::size_t> begin(segments + 1, 0);
   for (std::size_t s = 0; s < segments; ++s)
     begin[s + 1] = begin[s] + (count[s] + kPairBatch - 1) / kPairBatch * kPairBatch;
-  const kernel::RowOffset pad_i = row_offset(bodies_), pad_j = row_offset(bodies_ + 1);
-  i_.assign(begin.back(), pad_i), j_.assign(begin.back(), pad_j), shift_.assign(begin.back(), kNoImage);
+  i_.resize(begin.back()), j_.resize(begin.back()), shift_.assign(begin.back(), kNoImage);
+  for (std::size_t s = 0; s < segments; ++s) {
+    const std::size_t pad = BodiesStore::pad(bodies_, s / 2 % static_cast<std::size_t>(chunks_));
+    std::fill(i_.begin() + static_cast<std::ptrdiff_t>(begin[s]),
+              i_.begin() + static_cast<std::ptrdiff_t>(begin[s + 1]), row_offset(pad));
+    std::fill(j_.begin() + static_cast<std::ptrdiff_t>(begin[s]),
+              j_.begin() + static_cast<std::ptrdiff_t>(begin[s + 1]), row_offset(pad + 1));
+  }
   damping_coefficient_.assign(begin.back(), 0.0), radius_sum_.assign(begin.back(), 1.0);
   tangential_.assign(begin.back(), 0.0), moment_.assign(begin.back(), 0.0);
 
