@@ -1,6 +1,6 @@
 // The bodies as the kernels see them: rows, loads, constants (see kernel/row.hpp), in storage order, which follows the
-// cells of the neighbour grid. Beyond the last body lie pairs of far-apart rows that pad segments: one for each group of
-// a phase, because threads add to their loads at the same time.
+// cells of the neighbour grid. Beyond the last body lie pairs of far-apart rows that pad segments: one for each group
+// of a phase, because threads add to their loads at the same time.
 #pragma once
 #include <cstdint>
 #include <vector>
