@@ -186,7 +186,7 @@ void NeighbourLists::find_outer(const BodiesStore& bodies) {
         const Wrapped wx = wrap_index(cx + ox, grid.n[0]);
         const ImageShift<2> shift{wx.shift, wy.shift};
         const Vec2 offset = outer_cell_.offset(shift);
-        const auto c = static_cast<std::size_t>(wy.cell * grid.n[0] + wx.cell);
+        const int c = wy.cell * grid.n[0] + wx.cell;
         for (auto m = static_cast<std::size_t>(begin[c]); m < static_cast<std::size_t>(begin[c + 1]); ++m) {
           const auto j = static_cast<std::size_t>(member[m]);
           if (j <= i) continue;

@@ -20,7 +20,7 @@ class Placement {
  public:
   Placement(const PeriodicCell<2>& cell, double largest_diameter, double gap) : cell_(cell), gap_(gap) {
     for (int k = 0; k < 2; ++k) n_[k] = std::max(1, static_cast<int>(cell.length[k] / (largest_diameter + gap)));
-    members_.resize(static_cast<std::size_t>(n_[0] * n_[1]));
+    members_.resize(static_cast<std::size_t>(n_[0]) * static_cast<std::size_t>(n_[1]));
   }
   bool free(const Vec2& r, double radius, const Bodies<2>& bodies) const {
     const int cx = column(r, 0), cy = column(r, 1);
@@ -39,7 +39,9 @@ class Placement {
   int column(const Vec2& r, int k) const {
     return std::min(n_[k] - 1, static_cast<int>(r[k] / cell_.length[k] * n_[k]));
   }
-  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y * n_[0] + x); }
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(n_[0]) + static_cast<std::size_t>(x);
+  }
   PeriodicCell<2> cell_;
   double gap_;
   int n_[2];

@@ -101,7 +101,7 @@ SmoothedDiskTable::SmoothedDiskTable(const RadialKernel& kernel, double radius_m
     for (std::size_t i = 0; i < modes; ++i)
       source[static_cast<std::size_t>(m)][i] = amplitude[i] * (point ? k[i] / (2 * kPi) : radius * ::j1(k[i] * radius));
   }
-  const auto size = static_cast<std::size_t>(pieces_ * kTerms);
+  const auto size = static_cast<std::size_t>(pieces_) * kTerms;
   chebyshev_.assign(static_cast<std::size_t>(radii), std::vector<double>(size));
   std::vector<double> wave(modes), value(static_cast<std::size_t>(kTerms));
   std::vector<std::vector<double>> samples(static_cast<std::size_t>(radii),
@@ -123,7 +123,7 @@ SmoothedDiskTable::SmoothedDiskTable(const RadialKernel& kernel, double radius_m
       for (const auto& c : coefficient) over_radius.push_back(c[static_cast<std::size_t>(p)]);
       over_radius = chebyshev_coefficients(over_radius);
       for (std::size_t m = 0; m < over_radius.size(); ++m)
-        chebyshev_[m][static_cast<std::size_t>(s * kTerms + p)] = over_radius[m];
+        chebyshev_[m][static_cast<std::size_t>(s) * kTerms + static_cast<std::size_t>(p)] = over_radius[m];
     }
   }
   const auto largest = [](const std::vector<double>& v) {
@@ -138,7 +138,7 @@ SmoothedDiskTable::SmoothedDiskTable(const RadialKernel& kernel, double radius_m
 void SmoothedDiskTable::set_profile(double radius, Profile& profile) const {
   profile.reach_ = radius + support_;
   profile.inverse_step_ = 1 / step_;
-  const auto size = static_cast<std::size_t>((static_cast<int>(profile.reach_ / step_) + 1) * kTerms);
+  const auto size = (static_cast<std::size_t>(profile.reach_ / step_) + 1) * kTerms;
   profile.piece_.assign(chebyshev_[0].begin(), chebyshev_[0].begin() + static_cast<std::ptrdiff_t>(size));
   if (chebyshev_.size() == 1) return;
   const double t = (2 * radius - radius_min_ - radius_max_) / (radius_max_ - radius_min_);

@@ -25,9 +25,9 @@ class Appended {
     const char* type = std::is_same_v<Number, double>         ? "Float64"
                        : std::is_same_v<Number, std::int64_t> ? "Int64"
                                                               : "Int8";
-    const std::string header = "<DataArray type=\"" + std::string(type) + "\" Name=\"" + name +
-                               "\" NumberOfComponents=\"" + std::to_string(components) +
-                               "\" format=\"appended\" offset=\"" + std::to_string(block_.size()) + "\"/>\n";
+    std::string header = "<DataArray type=\"" + std::string(type) + "\" Name=\"" + name + "\" NumberOfComponents=\"" +
+                         std::to_string(components) + "\" format=\"appended\" offset=\"" +
+                         std::to_string(block_.size()) + "\"/>\n";
     const std::uint64_t bytes = values.size() * sizeof(Number);
     const std::size_t at = block_.size();
     block_.resize(at + sizeof bytes + bytes);
