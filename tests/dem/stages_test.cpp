@@ -102,20 +102,23 @@ TEST(Stages, StiffeningKeepsTheForcesOfTheSpringsOrTheirElongations) {
 }
 
 TEST(Stages, StiffeningRestartsBitForBit) {
-  StageScene stage;
-  stage.stiffening_keeps = "elongations";
-  stage.normal_stiffness = 1e4, stage.stiffening_time = 2, stage.until = "time", stage.time = 1.5;
-  const State straight = go_on(stage);
-  State s = aggregate();
-  s.scene.stages = {stage}, s.progress = {}, s.scene.finish.method = Finish::none;
-  int polls = 0;
-  RunHooks stop;
-  stop.interrupted = [&] { return ++polls > 25; };
-  ASSERT_TRUE(run_stages(s, {}, stop).interrupted);
-  ASSERT_LT(s.law.normal_stiffness, 1e4);
-  s = decode_state(encode_state(s), "memory").state;
-  run_stages(s, {}, {});
-  EXPECT_EQ(physical_hash(s), physical_hash(straight));
+  for (const char* kept : {"forces", "elongations"}) {
+    SCOPED_TRACE(kept);
+    StageScene stage;
+    stage.stiffening_keeps = kept;
+    stage.normal_stiffness = 1e4, stage.stiffening_time = 2, stage.until = "time", stage.time = 1.5;
+    const State straight = go_on(stage);
+    State s = aggregate();
+    s.scene.stages = {stage}, s.progress = {}, s.scene.finish.method = Finish::none;
+    int polls = 0;
+    RunHooks stop;
+    stop.interrupted = [&] { return ++polls > 25; };
+    ASSERT_TRUE(run_stages(s, {}, stop).interrupted);
+    ASSERT_LT(s.law.normal_stiffness, 1e4);
+    s = decode_state(encode_state(s), "memory").state;
+    run_stages(s, {}, {});
+    EXPECT_EQ(physical_hash(s), physical_hash(straight));
+  }
 }
 
 TEST(Stages, TensionTearsTheAggregateApart) {
