@@ -79,8 +79,15 @@ class SampleRun {
       end(state, outcome, partial());
       return outcome;
     }
-    for (const StageOutcome& s : outcome.run.stages)
-      if (!s.met) outcome.messages.push_back("stage " + std::to_string(s.stage) + " did not meet its end: " + s.reason);
+    for (const StageOutcome& s : outcome.run.stages) {
+      const std::string stage = "stage " + std::to_string(s.stage);
+      if (!s.met)
+        outcome.messages.push_back(stage + " did not meet its end: " + s.reason);
+      else if (s.moving > 0)
+        outcome.messages.push_back(stage + " meets the criteria of equilibrium, but " + std::to_string(s.moving) +
+                                   " grains still move, each with more kinetic energy than the mean may have; " +
+                                   "finish.method = \"newton\" follows floppy and soft modes to their end");
+    }
     const bool all_stages = state.progress.stage == static_cast<std::int32_t>(job_.scene.stages.size());
     outcome.code = outcome.run.all_met() && all_stages ? exit_done : exit_unfinished;
     end(state, outcome, job_.output);

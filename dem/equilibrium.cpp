@@ -39,18 +39,27 @@ void add_kinetic(StressTensor& s, const Bodies<2>& bodies) {
   }
 }
 
-double kinetic_energy_per_grain(const Bodies<2>& bodies, const std::vector<BodyLoad>& loads, const LawParameters& law) {
+// Mean kinetic energy per grain, and how many grains have more than `tolerance` each [F0 a].
+struct Motion {
+  double kinetic_energy = 0;
+  std::int64_t moving = 0;
+};
+Motion motion_of(const Bodies<2>& bodies, const std::vector<BodyLoad>& loads, const LawParameters& law,
+                 double tolerance) {
   const bool any_touching = std::any_of(loads.begin(), loads.end(), [](const BodyLoad& b) { return b.links > 0; });
   const bool all_count = law.attraction > 0 || !any_touching;
-  double energy = 0;
+  Motion motion;
   std::size_t counted = 0;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     if (!all_count && loads[k].links == 0) continue;
-    ++counted;
-    energy += 0.5 * bodies.mass[k] * dot(bodies.velocity[k], bodies.velocity[k]);
+    double energy = 0.5 * bodies.mass[k] * dot(bodies.velocity[k], bodies.velocity[k]);
     if (law.friction > 0) energy += 0.5 * bodies.inertia[k] * bodies.spin[k] * bodies.spin[k];
+    ++counted;
+    motion.kinetic_energy += energy;
+    motion.moving += !(energy <= tolerance);
   }
-  return counted == 0 ? 0.0 : energy / static_cast<double>(counted);
+  if (counted > 0) motion.kinetic_energy /= static_cast<double>(counted);
+  return motion;
 }
 
 }  // namespace
@@ -127,7 +136,8 @@ Certificate evaluate_certificate(const Packing<2>& packing, const LawParameters&
   }
   c.max_force = largest_force / c.force_scale;
   c.max_moment = largest_moment / c.force_scale;
-  c.kinetic_energy_per_grain = kinetic_energy_per_grain(packing.bodies, loads, law) / c.force_scale;
+  const Motion motion = motion_of(packing.bodies, loads, law, tolerance.kinetic_energy * c.force_scale);
+  c.kinetic_energy_per_grain = motion.kinetic_energy / c.force_scale, c.moving = motion.moving;
   if (c.pressure_controlled) {
     add_kinetic(stress, packing.bodies);
     const double area = packing.cell->measure();

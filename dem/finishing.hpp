@@ -25,10 +25,11 @@ struct FinishingReport {
   bool advanced = false;            // the state has drifted on, at most to just before a capture
   bool interrupted = false;         // given up on request
   bool capture = false;             // a pair is about to come within reach: for the dynamics to follow
+  bool stuck = false;               // implicit steps gain nothing here for now: the dynamics is the better way on
   int steps = 0;                    // accepted implicit steps
   std::int64_t factorisations = 0;  // of the tangent stiffness
   double residual = 0;              // [F1] largest net force (moment / a, stress error a) at the end
-  std::int64_t moving = 0;          // grains that floppy or very soft modes still move: the residual does not vanish
+  std::int64_t moving = 0;          // grains that a residual force still moves, in floppy or very soft modes
   std::string reason;               // why it did not settle, or what is left
 };
 
@@ -37,9 +38,9 @@ class StaticSolver {
   virtual ~StaticSolver() = default;
   // From a state in which only creep is left to rest in equilibrium under the same law, spring histories included.
   // Where two grains are about to come within reach of each other's attraction it stops, and leaves the moving packing
-  // as it is just before (advanced), to be marched through the event. If it can do neither, the state stays as it is,
-  // bit for bit. `time` does not advance; the solver's memory is emptied, so that a Solver made from the state starts
-  // from packing and links; the energy that the solve takes out goes to
+  // as it is just before (advanced), to be marched through the event; also where it gets no further (stuck). If it can
+  // do neither, the state stays as it is, bit for bit. `time` does not advance; the solver's memory is emptied, so that
+  // a Solver made from the state starts from packing and links; the energy that the solve takes out goes to
   // ledger.injected. The result depends neither on threads nor on the order in which the grains are stored.
   virtual FinishingReport settle(State& state, const FinishingRequest& request) = 0;
 };

@@ -37,8 +37,8 @@ std::size_t loaded_contacts(const State& s) {
 
 constexpr double kCarried = 0.5;  // [-] of the imposed stress that may be missing when finishing begins
 constexpr double kRinging = 20;   // [-] times the kinetic tolerance: static solves follow what still moves
+constexpr double kFlying = 100;   // [-] and the last clusters on their long flights to each other
 constexpr double kCapture = 2;    // [T0] that a capture is followed before static solves are tried again
-const char* const kDrifting = "newton, floppy modes are drifting";
 constexpr double kWait = 0.1;     // [-] of the time since the start of the stage, after a static solve that failed
 constexpr double kNetwork = 0.9;  // [links a grain] a connected network has one at least; rattlers have none
 
@@ -208,7 +208,7 @@ class StageRun {
     if (stage_.until == "time") return at_end();
     if (stage_.until == "strain") return strain() >= stage_.strain;
     if (stage_.until == "failure") return failed();
-    return !stiffening() && s_.certificate.equilibrated && !drifting() &&
+    return !stiffening() && s_.certificate.equilibrated && !s_.progress.drifting &&
            (stage_.until != "aggregated" || count_clusters(s_.packing) == 1);
   }
   // What keeps the stage from its end.
@@ -216,7 +216,7 @@ class StageRun {
     if (stage_.until == "strain") return "the strain is " + std::to_string(strain());
     if (stage_.until == "failure") return "the peak stress has not dropped by stage.drop";
     if (stiffening()) return "K_N is still changing";
-    if (drifting()) return "floppy modes are still drifting";
+    if (s_.progress.drifting) return "floppy modes are still drifting";
     if (s_.certificate.equilibrated) return std::to_string(count_clusters(s_.packing)) + " clusters";
     const WorstCriterion worst = worst_criterion(s_.certificate);
     return worst.name + " is " + std::to_string(worst.ratio) + " times its tolerance";
@@ -225,7 +225,7 @@ class StageRun {
   // Everything that is decided about a run is decided here, at fixed steps, whoever watches.
   bool over(StageOutcome& outcome) {
     follow_peak();
-    outcome = {s_.progress.stage, true, s_.time, stage_.until};
+    outcome = {s_.progress.stage, true, s_.time, stage_.until, waits_for_equilibrium() ? s_.certificate.moving : 0};
     if (end_met()) return true;
     outcome.met = false;
     if (hooks_.max_time > 0 && s_.time >= hooks_.max_time) {
@@ -252,7 +252,7 @@ class StageRun {
   bool rings() const { return s_.time - s_.progress.unchanged_since >= s_.scene.finish.unchanged_time; }
 
   // Only creep is left when there is a network (as many loaded contacts as grains), it carries most of the imposed
-  // stress, and the kinetic criterion (static solves: kRinging times it) has been met for finish.quiet_time. To finish
+  // stress, and the kinetic criterion (static solves: a multiple of it) has been met for finish.quiet_time. To finish
   // earlier would stop the very motions that make the packing: when a compression begins nothing moves fast either.
   // Static solves follow a ringing cell as well, whose stress passes through the imposed one again and again: for them
   // the network need carry it only at the instant they begin.
@@ -265,15 +265,12 @@ class StageRun {
     const bool carries =
         c.pressure_error * c.force_scale < std::max(kCarried * std::abs(largest_stress(s_.imposed_stress).value_or(0)),
                                                     10 * c.tolerance_pressure * c.force_scale);
-    const bool still = c.kinetic_energy_per_grain < (newton ? kRinging : 1.0) * c.tolerance_kinetic;
+    const double most = !newton ? 1.0 : stage_.until == "aggregated" ? kFlying : kRinging;
+    const bool still = c.kinetic_energy_per_grain < most * c.tolerance_kinetic;
     double& since = s_.progress.quiet_since;
     if (!network || !still || !(carries || newton)) since = std::max(since, s_.time);
     return carries && ((network && rings()) || s_.time - since >= s_.scene.finish.quiet_time);
   }
-
-  // Static solves have silenced the vibrations, so that the kinetic criterion alone would end the stage; but floppy
-  // modes are on their way to a contact.
-  bool drifting() const { return s_.certificate.finishing == kDrifting; }
 
   void finish() {
     if (s_.scene.finish.method == Finish::drag && !s_.progress.drag_on) {
@@ -299,18 +296,15 @@ class StageRun {
       times_before_ += solver_->times();
       solver_.emplace(s_, control, options_);
       solver_->snapshot(s_);
-      s_.certificate.finishing = report.moving > 0 ? "newton, " + std::to_string(report.moving) +
-                                                         " grains still move in floppy or very soft modes"
-                                                   : "newton";
+      s_.certificate.finishing = "newton";
     }
-    if (report.advanced)
-      s_.certificate.finishing = kDrifting;
-    else if (drifting() && !report.capture)
-      s_.certificate.finishing = "newton";  // no more: the criteria alone decide
+    // Vibrations are silent now, so that the kinetic criterion alone would end the stage; but floppy modes are on their
+    // way to a contact. When nothing can be done about them the criteria alone decide.
+    s_.progress.drifting = report.advanced || (s_.progress.drifting && report.capture);
     certify();
     const double later = s_.time + kWait * (s_.time - s_.progress.start_time);
     s_.progress.quiet_since =
-        report.capture || report.advanced ? s_.time + kCapture - s_.scene.finish.quiet_time : later;
+        (report.capture || report.advanced) && !report.stuck ? s_.time + kCapture - s_.scene.finish.quiet_time : later;
     s_.progress.unchanged_since = std::max(s_.progress.unchanged_since, later - s_.scene.finish.unchanged_time);
   }
 
@@ -342,10 +336,7 @@ RunOutcome run_stages(State& state, const SolverOptions& options, const RunHooks
   const auto stages = static_cast<std::int32_t>(state.scene.stages.size());
   const std::int64_t first_step = state.step;
   while (state.progress.stage < stages) {
-    if (!state.progress.started) {
-      open_stage(state, state.scene.stages[static_cast<std::size_t>(state.progress.stage)]);
-      if (state.certificate.finishing == kDrifting) state.certificate.finishing = "newton";
-    }
+    if (!state.progress.started) open_stage(state, state.scene.stages[static_cast<std::size_t>(state.progress.stage)]);
     StageRun run(state, options, hooks, finisher);
     StageOutcome stage;
     outcome.interrupted = !run.run(stage);

@@ -36,9 +36,10 @@ struct RunHooks {
 
 struct StageOutcome {
   std::int32_t stage = 0;
-  bool met = false;    // its own end was reached
-  double time = 0;     // [T0] at the end
-  std::string reason;  // what ended it, or what is missing and the key to turn
+  bool met = false;         // its own end was reached
+  double time = 0;          // [T0] at the end
+  std::string reason;       // what ended it, or what is missing and the key to turn
+  std::int64_t moving = 0;  // an equilibrium by its means, in which so many grains still move (Certificate::moving)
 };
 
 struct RunOutcome {

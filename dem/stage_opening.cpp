@@ -76,6 +76,7 @@ void open_stage(State& s, const StageScene& stage) {
   s.progress.start_stiffness = s.law.normal_stiffness;
   s.progress.start_stress = static_stress(s);
   s.progress.peak_stress = 0;
+  s.progress.drifting = false;
   s.progress.start_time = s.time;
   s.progress.drag_on = false;
   s.progress.quiet_since = s.progress.unchanged_since = s.time;

@@ -60,6 +60,7 @@ struct StageProgress {
   double start_stiffness = 0;     // K_N [F0/a] when the stage began
   Vec2 start_stress{};            // [F0/a] static stress sigma_11, sigma_22 when the stage began
   double peak_stress = 0;         // [F0/a] largest change of the stress of a driven direction so far
+  bool drifting = false;          // static solves have silenced the vibrations, but not what floppy modes still do
 };
 
 // The three criteria of Gilabert 2007, Sec. II.D, evaluated from static forces.
@@ -73,6 +74,7 @@ struct Certificate {
   std::int64_t sliding = 0;          // contacts with |T| >= (1 - 1e-6) mu N_e
   std::int64_t rolling_yielded = 0;  // contacts with |M| >= (1 - 1e-6) mu_r N_e
   double smallest_margin = 1;        // min over contacts of 1 - |T| / (mu N_e), and the same for rolling
+  std::int64_t moving = 0;           // grains whose own kinetic energy is above the tolerance of the mean
   bool pressure_controlled = false;
   bool equilibrated = false;
   std::string finishing = "none";  // which finishing method acted, if any

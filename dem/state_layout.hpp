@@ -1,4 +1,4 @@
-// Format version 2 of a state file, described once: writing and reading both follow transfer(). Io is StateWriter or
+// Format version 3 of a state file, described once: writing and reading both follow transfer(). Io is StateWriter or
 // StateReader of dem/state_file.cpp. Structured bindings name every member, so that a new member of State does not
 // compile until it has its place here. Raise kStateFormatVersion and extend docs/formats.md with any change.
 #pragma once
@@ -131,7 +131,7 @@ void transfer_law(Io& io, LawParameters& law) {
 template <class Io>
 void transfer_progress(Io& io, StageProgress& progress) {
   auto& [stage, start_time, started, drag_on, quiet_since, contact_set, unchanged_since, start_stiffness, start_stress,
-         peak_stress] = progress;
+         peak_stress, drifting] = progress;
   io.value("/progress", "stage", stage);
   io.value("/progress", "start_time", start_time);
   io.value("/progress", "started", started);
@@ -142,6 +142,7 @@ void transfer_progress(Io& io, StageProgress& progress) {
   io.value("/progress", "start_stiffness", start_stiffness);
   io.value("/progress", "start_stress", start_stress);
   io.value("/progress", "peak_stress", peak_stress);
+  io.value("/progress", "drifting", drifting);
 }
 
 template <class Io>
@@ -160,7 +161,7 @@ void transfer_ledger(Io& io, EnergyLedger& ledger) {
 template <class Io>
 void transfer_certificate(Io& io, Certificate& certificate) {
   auto& [max_force, max_moment, pressure_error, kinetic_energy_per_grain, force_scale, tolerance_force,
-         tolerance_pressure, tolerance_kinetic, sliding, rolling_yielded, smallest_margin, pressure_controlled,
+         tolerance_pressure, tolerance_kinetic, sliding, rolling_yielded, smallest_margin, moving, pressure_controlled,
          equilibrated, finishing] = certificate;
   io.value("/certificate", "max_force", max_force);
   io.value("/certificate", "max_moment", max_moment);
@@ -173,6 +174,7 @@ void transfer_certificate(Io& io, Certificate& certificate) {
   io.value("/certificate", "sliding", sliding);
   io.value("/certificate", "rolling_yielded", rolling_yielded);
   io.value("/certificate", "smallest_margin", smallest_margin);
+  io.value("/certificate", "moving", moving);
   io.value("/certificate", "pressure_controlled", pressure_controlled);
   io.value("/certificate", "equilibrated", equilibrated);
   io.value("/certificate", "finishing", finishing);

@@ -8,7 +8,7 @@
 namespace isostat {
 
 inline constexpr std::size_t kSealBytes = 512;  // a user block in the sense of HDF5
-inline constexpr int kStateFormatVersion = 2;   // docs/formats.md
+inline constexpr int kStateFormatVersion = 3;   // docs/formats.md
 
 // Fills the first kSealBytes of an HDF5 image that has a user block of that size.
 void seal_state(std::string& image);

@@ -12,7 +12,8 @@ namespace isostat {
 namespace {
 
 // In diameters of the smallest grain: how far one step may take a grain, and the gap up to which pairs are listed.
-constexpr double kLargestStep = 0.02, kSkin = 0.16;
+constexpr double kLargestStep = 0.08, kSkin = 0.64;
+constexpr double kSlips = 1e-6;  // of its limit: nearer to it a contact slips
 
 std::size_t at(std::int32_t k) { return static_cast<std::size_t>(k); }
 
@@ -115,8 +116,9 @@ void SettlingNetwork::refresh() {
     pairs_.push_back(p);
   }
   listed_at_ = position_, listed_length_ = length_;
-  make_pattern();
   remember_branches();
+  for (Pair& p : pairs_) p.coupled = p.gap < law_.attraction_range || p.gap < 0;
+  make_pattern();
 }
 
 void SettlingNetwork::remember_branches() {
@@ -127,57 +129,76 @@ void SettlingNetwork::remember_branches() {
   }
 }
 
-// Columns of a grain: its own block, one block for every neighbour of higher rank, the strains.
+void SettlingNetwork::couple_active_pairs() {
+  bool grows = false;
+  for (std::size_t k = 0; k < pairs_.size(); ++k)
+    if (response_[k].active && !pairs_[k].coupled) grows = pairs_[k].coupled = true;
+  if (grows) make_pattern();
+}
+
+// Columns of a grain: its own block, one block for every coupled neighbour of higher rank, the strains.
 void SettlingNetwork::make_pattern() {
   const std::size_t n = grains();
   const auto strains = static_cast<std::int32_t>(directions_.size());
   blocks_.assign(n, 0);
   std::vector<std::vector<std::int32_t>> neighbours(n);
   for (Pair& p : pairs_) {  // sorted by (i, j, shift): images of one neighbour share a block
+    if (!p.coupled || p.i == p.j) continue;
     std::vector<std::int32_t>& list = neighbours[at(p.i)];
-    if (p.i == p.j) continue;
     if (list.empty() || list.back() != p.j) list.push_back(p.j);
     p.slot = static_cast<std::int32_t>(list.size()) - 1;
   }
-  matrix_ = {};
-  matrix_.size = static_cast<std::int32_t>(size());
-  matrix_.start.push_back(0);
+  SymmetricMatrix pattern;
+  pattern.size = static_cast<std::int32_t>(size());
+  pattern.start.push_back(0);
   for (std::size_t k = 0; k < n; ++k) {
     blocks_[k] = static_cast<std::int32_t>(neighbours[k].size());
     for (std::int32_t a = 0; a < 3; ++a) {
-      for (std::int32_t b = a; b < 3; ++b) matrix_.row.push_back(3 * static_cast<std::int32_t>(k) + b);
+      for (std::int32_t b = a; b < 3; ++b) pattern.row.push_back(3 * static_cast<std::int32_t>(k) + b);
       for (std::int32_t j : neighbours[k])
-        for (std::int32_t b = 0; b < 3; ++b) matrix_.row.push_back(3 * j + b);
-      for (std::int32_t s = 0; s < strains; ++s) matrix_.row.push_back(3 * static_cast<std::int32_t>(n) + s);
-      matrix_.start.push_back(static_cast<std::int32_t>(matrix_.row.size()));
+        for (std::int32_t b = 0; b < 3; ++b) pattern.row.push_back(3 * j + b);
+      for (std::int32_t s = 0; s < strains; ++s) pattern.row.push_back(3 * static_cast<std::int32_t>(n) + s);
+      pattern.start.push_back(static_cast<std::int32_t>(pattern.row.size()));
     }
   }
   for (std::int32_t s = 0; s < strains; ++s) {
-    for (std::int32_t q = s; q < strains; ++q) matrix_.row.push_back(3 * static_cast<std::int32_t>(n) + q);
-    matrix_.start.push_back(static_cast<std::int32_t>(matrix_.row.size()));
+    for (std::int32_t q = s; q < strains; ++q) pattern.row.push_back(3 * static_cast<std::int32_t>(n) + q);
+    pattern.start.push_back(static_cast<std::int32_t>(pattern.row.size()));
   }
-  matrix_.value.assign(matrix_.row.size(), 0.0);
+  if (pattern.start == matrix_.start && pattern.row == matrix_.row) return;
+  pattern.value.resize(pattern.row.size());
+  matrix_ = std::move(pattern);
   ++patterns_;
 }
 
 // The slip is measured along the tangent of the mean branch vector, so that a rigid rotation stretches no spring to
 // second order. A contact that forms within the step slips for the part of it that it exists, as in
 // kernel/crossing.hpp.
-SettlingNetwork::Response SettlingNetwork::respond(const Pair& p, const Vec2& r, double theta_i, double theta_j) const {
+SettlingNetwork::Response SettlingNetwork::respond(const Pair& p, const Vec2& r, double theta_i, double theta_j,
+                                                   Links links) const {
   Response s;
   const double ri = radius_[at(p.i)], rj = radius_[at(p.j)], sum = ri + rj;
   s.frame = link_frame(r[0], r[1], ri, rj);
   const LinkFrame<double>& f = s.frame;
-  s.normal = static_normal_force(f.gap, law_);
-  if (!(f.gap < 0)) {
-    s.active = law_.attraction > 0 && f.gap < law_.attraction_range;
-    if (s.active) s.normal_stiffness = -law_.attraction / law_.attraction_range;
+  s.held = links == Links::hold;
+  if (!((s.held ? p.gap : f.gap) < 0)) {
+    s.active = law_.attraction > 0 && (s.held ? p.gap : f.gap) < law_.attraction_range;
+    if (!s.active) return s;
+    s.normal = -law_.attraction * (1 - f.gap / law_.attraction_range);
+    s.normal_stiffness = -law_.attraction / law_.attraction_range;
     return s;
   }
   s.active = true;
+  s.normal = -law_.normal_stiffness * f.gap - law_.attraction;
   s.normal_stiffness = law_.normal_stiffness;
   if (!(law_.friction > 0) && !(law_.rolling_friction > 0)) return s;
   const double repulsion = -law_.normal_stiffness * f.gap;
+  // A held contact does not begin to slip; one that slips already goes on under its last limit.
+  const auto limit = [&](double coefficient, double force) {
+    if (!s.held) return coefficient * repulsion;
+    const double last = -coefficient * law_.normal_stiffness * p.gap;
+    return std::abs(force) < (1 - kSlips) * last ? INFINITY : last;
+  };
   const double lasts = p.gap >= 0 ? f.gap / (f.gap - p.gap) : 1.0;  // part of the step in contact
   const double lasts_by_gap = p.gap >= 0 ? -p.gap / ((f.gap - p.gap) * (f.gap - p.gap)) : 0.0;
   if (law_.friction > 0) {
@@ -185,10 +206,11 @@ SettlingNetwork::Response SettlingNetwork::respond(const Pair& p, const Vec2& r,
     const double distance = norm(mean), turned = ri * theta_i + rj * theta_j;
     const double along = (p.branch[0] * r[1] - p.branch[1] * r[0]) / distance;  // t_mean . (r - r_accepted)
     const double slip = along - distance / sum * turned;
-    const Yielding y = clamped(p.tangential - law_.tangential_stiffness * lasts * slip, law_.friction * repulsion);
+    const Yielding y =
+        clamped(p.tangential - law_.tangential_stiffness * lasts * slip, limit(law_.friction, p.tangential));
     s.tangential = y.force, s.slides = y.yields;
     if (y.yields) {
-      s.shear[0] = -std::copysign(law_.friction * law_.normal_stiffness, y.force);
+      if (!s.held) s.shear[0] = -std::copysign(law_.friction * law_.normal_stiffness, y.force);
     } else {
       // d(slip)/dr, as a vector, on the frame.
       const double half = 0.5 / distance * (along / distance + turned / sum);
@@ -200,10 +222,11 @@ SettlingNetwork::Response SettlingNetwork::respond(const Pair& p, const Vec2& r,
   }
   if (law_.rolling_friction > 0) {
     const double turn = theta_j - theta_i;
-    const Yielding y = clamped(p.moment - law_.rolling_stiffness * lasts * turn, law_.rolling_friction * repulsion);
+    const Yielding y =
+        clamped(p.moment - law_.rolling_stiffness * lasts * turn, limit(law_.rolling_friction, p.moment));
     s.moment = y.force, s.yields = y.yields;
     if (y.yields) {
-      s.roll[0] = -std::copysign(law_.rolling_friction * law_.normal_stiffness, y.force);
+      if (!s.held) s.roll[0] = -std::copysign(law_.rolling_friction * law_.normal_stiffness, y.force);
     } else {
       const double k = law_.rolling_stiffness * lasts;
       s.roll = {-law_.rolling_stiffness * lasts_by_gap * turn, 0, k, -k};
@@ -212,7 +235,7 @@ SettlingNetwork::Response SettlingNetwork::respond(const Pair& p, const Vec2& r,
   return s;
 }
 
-const std::vector<double>& SettlingNetwork::forces(const std::vector<double>& step) {
+const std::vector<double>& SettlingNetwork::forces(const std::vector<double>& step, Links links) {
   const std::size_t strain = 3 * grains();
   scale_ = {1, 1};
   for (std::size_t s = 0; s < directions_.size(); ++s)
@@ -226,7 +249,7 @@ const std::vector<double>& SettlingNetwork::forces(const std::vector<double>& st
     const std::size_t i = 3 * at(p.i), j = 3 * at(p.j);
     const Vec2 r{
         {scale_[0] * (p.branch[0] + (step[j] - step[i])), scale_[1] * (p.branch[1] + (step[j + 1] - step[i + 1]))}};
-    const Response& s = response_[k] = respond(p, r, step[i + 2], step[j + 2]);
+    const Response& s = response_[k] = respond(p, r, step[i + 2], step[j + 2], links);
     if (!s.active) continue;
     const LinkLoad<double> load = link_load(s.frame, s.normal, s.tangential, s.moment);
     force_[j] += load.fx, force_[j + 1] += load.fy, force_[j + 2] += load.moment_j;
@@ -252,10 +275,13 @@ SettlingNetwork::Tangent SettlingNetwork::tangent(const Pair& p, const Response&
   std::array<double, 4> shear = s.shear, roll = s.roll;
   if (symmetric && s.slides) shear = {};
   if (symmetric && s.yields) roll = {};
-  k[0] = {s.normal_stiffness, s.tangential / r, 0, 0};
-  k[1][1] = -s.normal / r;
-  k[2][0] = s.tangential * radius_[at(p.i)] / sum;
-  k[3][0] = s.tangential * radius_[at(p.j)] / sum;
+  // What turns with the frame. Links that hold pass through forces far from those of the step's end on the way there.
+  const double normal = s.held ? static_normal_force(p.gap, law_) : s.normal;
+  const double tangential = s.held ? p.tangential : s.tangential;
+  k[0] = {s.normal_stiffness, tangential / r, 0, 0};
+  k[1][1] = -normal / r;
+  k[2][0] = tangential * radius_[at(p.i)] / sum;
+  k[3][0] = tangential * radius_[at(p.j)] / sum;
   for (std::size_t c = 0; c < 4; ++c) {
     k[1][c] -= shear[c];
     k[2][c] += f.lever_i * shear[c] + roll[c];
@@ -301,6 +327,7 @@ std::vector<double> SettlingNetwork::stiffness_times(const std::vector<double>& 
 
 const SymmetricMatrix& SettlingNetwork::shifted_stiffness(double shift) {
   const std::size_t strain = 3 * grains(), strains = directions_.size();
+  couple_active_pairs();
   std::fill(matrix_.value.begin(), matrix_.value.end(), 0.0);
   for (std::size_t c = 0; c < size(); ++c) matrix_.value[at(matrix_.start[c])] += shift * inertia_[c];
 
@@ -382,13 +409,15 @@ void SettlingNetwork::accept(const std::vector<double>& step) {
   forces(std::vector<double>(size(), 0.0));
 }
 
-bool SettlingNetwork::captures() const {
-  if (!(law_.attraction > 0)) return false;
+std::optional<double> SettlingNetwork::first_capture() const {
+  std::optional<double> first;
+  if (!cohesive()) return first;
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     const double before = pairs_[k].gap, after = response_[k].frame.gap;
-    if ((before >= 0 && after < 0) || (before >= law_.attraction_range && after < law_.attraction_range)) return true;
+    for (const double reach : {0.0, law_.attraction_range})
+      if (before >= reach && after < reach) first = std::min(first.value_or(1), (before - reach) / (before - after));
   }
-  return false;
+  return first;
 }
 
 SettlingNetwork::Balance SettlingNetwork::balance() const {

@@ -18,6 +18,11 @@
 
 namespace isostat {
 
+// The law as it is; or the links as they are: contacts hold, stretched at their stiffness, and do not begin to slip,
+// and no pair beyond reach acts. A step that changes no link ends in the same place either way. But on the way there a
+// trial step easily stretches contacts by more than their deflection F0 / K_N, where they have a negative stiffness.
+enum class Links { act, hold };
+
 class SettlingNetwork {
  public:
   SettlingNetwork(const State& state, const FinishingRequest& request);
@@ -30,13 +35,13 @@ class SettlingNetwork {
   std::vector<double> velocities(const State& state) const;
 
   // Forces at a trial step; keeps what the tangent needs. Pairs are found up to a skin: see refresh().
-  const std::vector<double>& forces(const std::vector<double>& step);
+  const std::vector<double>& forces(const std::vector<double>& step, Links links = Links::act);
   const std::vector<double>& forces() const { return force_; }
 
   // K x with K = -d(force)/d(step) at the configuration of the last forces(): not symmetric with friction.
   std::vector<double> stiffness_times(const std::vector<double>& x) const;
-  // Its symmetric part with yielded springs left out, plus inertia * shift, lower triangle. The pattern stays the same
-  // until the next refresh(): patterns() counts them.
+  // Its symmetric part with yielded springs left out, plus inertia * shift, lower triangle. Pairs out of reach have no
+  // place in it; the pattern grows when one of them comes to act: patterns() counts the different ones.
   const SymmetricMatrix& shifted_stiffness(double shift);
   std::int64_t patterns() const { return patterns_; }
 
@@ -54,8 +59,10 @@ class SettlingNetwork {
   // In the kinetic criterion (evaluate_certificate): without cohesion a grain that touches nothing does not, unless
   // none touches.
   bool counts(std::size_t grain) const { return all_count_ || touching_[grain]; }
-  // Whether the trial step of the last forces() brings a cohesive pair within reach or into contact.
-  bool captures() const;
+  bool cohesive() const { return law_.attraction > 0; }
+  // The part of the trial step of the last forces() after which it first brings a cohesive pair within reach or into
+  // contact, if it does.
+  std::optional<double> first_capture() const;
   double area() const { return length_[0] * length_[1]; }
 
   // Puts the accepted configuration and the given velocities into a state; its memory is emptied.
@@ -68,6 +75,7 @@ class SettlingNetwork {
     double tangential = 0, moment = 0;  // history at the accepted configuration [F0], [F0 a]
     Vec2 branch{};                      // r_ij there
     double gap = 0;
+    bool coupled = false;   // has a block in the pattern: it has been active since the last refresh
     std::int32_t slot = 0;  // off-diagonal block of the pattern, in column i
   };
   struct Response {  // at the trial configuration
@@ -76,14 +84,15 @@ class SettlingNetwork {
     double normal_stiffness = 0;                    // -dN/dh; 0 without interaction
     // dT and dM per (normal displacement, tangential displacement, theta_i, theta_j).
     std::array<double, 4> shear{}, roll{};
-    bool active = false, slides = false, yields = false;
+    bool active = false, slides = false, yields = false, held = false;
   };
   using Tangent = std::array<std::array<double, 4>, 4>;
 
-  Response respond(const Pair& pair, const Vec2& branch, double theta_i, double theta_j) const;
+  Response respond(const Pair& pair, const Vec2& branch, double theta_i, double theta_j, Links links) const;
   Tangent tangent(const Pair& pair, const Response& response, bool symmetric) const;
   void refresh();
   void remember_branches();
+  void couple_active_pairs();
   void make_pattern();
 
   LawParameters law_;

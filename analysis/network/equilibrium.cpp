@@ -52,6 +52,7 @@ nlohmann::ordered_json equilibrium_section(const AnalysisInput& input, const Ana
   json["rolling_yielded"] = c.rolling_yielded;
   json["smallest_margin"] = yields ? c.smallest_margin : kUndefined;
   json["law_residual"] = law_residual(state, c.force_scale);
+  json["moving"] = c.moving;
   json["finishing"] = c.finishing;
   json["equilibrated"] = c.equilibrated;
   return json;

@@ -57,8 +57,8 @@ TEST_F(BadInput, DamagedStates) {
   flipped[bytes.size() - 100] = static_cast<char>(flipped[bytes.size() - 100] ^ 4);
   refused("flipped", flipped, "damaged");
   std::string later = bytes;
-  later.replace(later.find("format version 2"), 16, "format version 3");
-  refused("later", later, "format version 2");
+  later.replace(later.find("format version 3"), 16, "format version 4");
+  refused("later", later, "format version 3");
 }
 
 }  // namespace

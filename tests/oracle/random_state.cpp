@@ -87,12 +87,13 @@ State random_state(std::uint64_t seed, int grains, int links) {
   s.scene.law.friction = d.positive(), s.scene.output.series = "a \"quoted\"\nname";
   s.scene.seed = d.word() >> 1;
   s.progress = {d.integer(0, static_cast<int>(s.scene.stages.size())), d.real(), d.coin(), d.coin(), d.real()};
+  s.progress.drifting = d.coin();
   s.ledger = {d.real(), d.real(), d.real(), d.real(), d.real(), d.real(), d.real(), d.real()};
   Certificate& c = s.certificate;
   for (double* x : {&c.max_force, &c.max_moment, &c.pressure_error, &c.kinetic_energy_per_grain, &c.force_scale,
                     &c.tolerance_force, &c.tolerance_pressure, &c.tolerance_kinetic, &c.smallest_margin})
     *x = d.real();
-  c.sliding = d.integer(0, 99), c.rolling_yielded = d.integer(0, 99);
+  c.sliding = d.integer(0, 99), c.rolling_yielded = d.integer(0, 99), c.moving = d.integer(0, 99);
   c.pressure_controlled = d.coin(), c.equilibrated = d.coin();
   c.finishing = "drag";
   s.seed = d.word(), s.random_counter = d.word();
@@ -164,6 +165,7 @@ void expect_equal(const State& a, const State& b) {
   EXPECT_SAME(progress.start_stiffness);
   EXPECT_SAME(progress.start_stress);
   EXPECT_SAME(progress.peak_stress);
+  EXPECT_SAME(progress.drifting);
   EXPECT_SAME(ledger.viscous);
   EXPECT_SAME(ledger.sliding);
   EXPECT_SAME(ledger.rolling);
@@ -183,6 +185,7 @@ void expect_equal(const State& a, const State& b) {
   EXPECT_SAME(certificate.sliding);
   EXPECT_SAME(certificate.rolling_yielded);
   EXPECT_SAME(certificate.smallest_margin);
+  EXPECT_SAME(certificate.moving);
   EXPECT_SAME(certificate.pressure_controlled);
   EXPECT_SAME(certificate.equilibrated);
   EXPECT_EQ(a.certificate.finishing, b.certificate.finishing);

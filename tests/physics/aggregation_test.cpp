@@ -84,6 +84,7 @@ TEST(Aggregation, InterruptedWhileFlyingItEndsTheSame) {
   stop.interrupted = [&] { return ++polls % (10 + 10 * times) == 0; };
   while (run_stages(s, {}, stop, &newton).interrupted) {
     s = decode_state(encode_state(s), "memory").state;
+    polls = 0;
     ASSERT_LT(++times, 10000);
   }
   EXPECT_GT(times, 2);

@@ -160,13 +160,13 @@ TEST(NewtonFinishing, ContactsOpenWhileItSettles) {
 }
 
 TEST(NewtonFinishing, LeavesAStateItCannotSettleAsItIs) {
-  // A gas: nothing takes its energy.
+  // A fast gas: nothing takes its energy, and it goes so far in a step that explicit ones are as good.
   Scene scene = scene_of(Finish::none, false, 0);
   scene.stages[0].pressure = std::nullopt;
   scene.stages[0].until = "time", scene.stages[0].time = 1;
   State start = initial_state(scene, 3);
   for (std::size_t k = 0; k < start.packing.bodies.size(); ++k)
-    start.packing.bodies.velocity[k] = {{std::cos(static_cast<double>(k)), std::sin(static_cast<double>(k))}};
+    start.packing.bodies.velocity[k] = {{8 * std::cos(static_cast<double>(k)), 8 * std::sin(static_cast<double>(k))}};
   start.law.damping = 0;
   run_stages(start, {}, {});
   State s = start;
@@ -177,15 +177,17 @@ TEST(NewtonFinishing, LeavesAStateItCannotSettleAsItIs) {
 }
 
 // Grains apart in a cell under a stress below the tolerance: by the criteria an equilibrium, but nothing ever stops it.
-TEST(NewtonFinishing, SaysThatAFloppyModeIsStillMoving) {
+TEST(NewtonFinishing, CallsAFloppyModeThatStillMovesNoEquilibrium) {
   State s = initial_state(scene_of(Finish::none), 3);
   ASSERT_TRUE(s.packing.links.empty());
   s.imposed_stress = isotropic(5e-5);
   const FinishingReport report = NewtonFinishing().settle(s, request_for(s, 5e-5));
-  EXPECT_TRUE(report.settled);
-  EXPECT_EQ(report.moving, 60);
+  EXPECT_FALSE(report.settled);
+  EXPECT_TRUE(report.advanced);
+  EXPECT_TRUE(report.stuck);
+  EXPECT_GT(report.moving, 0);
   EXPECT_NEAR(report.residual, 5e-5, 1e-6);
-  EXPECT_EQ(report.reason, "a floppy or very soft mode is still moving");
+  EXPECT_EQ(report.reason, "floppy or very soft modes still move " + std::to_string(report.moving) + " grains");
 }
 
 // Two grains fly towards each other: taken to where the attraction begins, with the momentum and energy they have.
