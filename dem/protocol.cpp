@@ -80,11 +80,12 @@ class StageRun {
     for (;;) {
       if (solver_->steps() % interval_ == 0 || at_end()) {
         look();
-        if (over(outcome)) return true;
+        const bool to_be_solved = statically_solved() && end_met();
+        if (!to_be_solved && over(outcome)) return true;
         if (s_.scene.finish.method != Finish::none) {
           follow_contacts();
-          if (only_creep_is_left()) finish();
-          if (over(outcome)) return true;
+          if (to_be_solved || only_creep_is_left()) finish();
+          if (!interrupted_ && over(outcome)) return true;
         }
       }
       if (interrupted_ || (hooks_.interrupted && hooks_.interrupted())) {
@@ -106,6 +107,10 @@ class StageRun {
   double end_time() const { return stage_.until == "time" ? s_.progress.start_time + stage_.time : INFINITY; }
   bool at_end() const { return solver_->time() >= end_time() - 0.5 * s_.time_step; }
   bool waits_for_equilibrium() const { return stage_.until == "equilibrium" || stage_.until == "aggregated"; }
+  // Static solves have the last word: the criteria may hold while a soft mode passes through its turning point.
+  bool statically_solved() const {
+    return s_.scene.finish.method == Finish::newton && waits_for_equilibrium() && !driven(0) && !driven(1);
+  }
 
   bool stiffening() const { return stage_.normal_stiffness && s_.law.normal_stiffness != *stage_.normal_stiffness; }
   // K_N on its way from what it was to what the stage wants, as a function of time alone.
@@ -277,7 +282,7 @@ class StageRun {
       s_.progress.drag_on = true;
       solver_->set_drag(s_.scene.finish.drag);
     }
-    if (s_.scene.finish.method == Finish::newton && !driven(0) && !driven(1)) settle();
+    if (statically_solved()) settle();
   }
 
   // Static solves instead of waiting. When they meet a capture, the run goes through it and they take over again. If
