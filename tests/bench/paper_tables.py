@@ -58,10 +58,12 @@ def write(path, rows):
 
 def write_choices(folder, target):
     """Means of the rows of data/studies/choices.toml, by stage."""
-    names = ["counts.solid_fraction", "counts.solid_fraction_se", "counts.z", "counts.z_se"]
-    rows = [["row", "stage", "Phi", "Phi_se", "z", "z_se", "samples"]]
+    names = {"Phi": "counts.solid_fraction", "z": "counts.z", "zero_fraction": "forces.zero_fraction",
+             "above_tenth_fraction": "forces.above_tenth_fraction"}
+    rows = [["row", "stage", *(n for name in names for n in (name, name + "_se")), "samples"]]
     for r in csv.DictReader(open(folder / "study.csv")):
-        rows.append([r["row"], r["stage"], *(f"{float(r[n] or 'nan'):.6g}" for n in names), r["n"]])
+        columns = [c for key in names.values() for c in (key, key + "_se")]
+        rows.append([r["row"], r["stage"], *(f"{float(r[c] or 'nan'):.6g}" for c in columns), r["n"]])
     write(target / "study_choices.csv", rows)
 
 
