@@ -85,8 +85,10 @@ class SampleRun {
         outcome.messages.push_back(stage + " did not meet its end: " + s.reason);
       else if (s.moving > 0)
         outcome.messages.push_back(stage + " meets the criteria of equilibrium, but " + std::to_string(s.moving) +
-                                   " grains still move, each with more kinetic energy than the mean may have; " +
-                                   "finish.method = \"newton\" follows floppy and soft modes to their end");
+                                   " grains still move in floppy or soft modes" +
+                                   (job_.scene.finish.method == Finish::newton
+                                        ? ""
+                                        : "; finish.method = \"newton\" follows these to their end"));
     }
     const bool all_stages = state.progress.stage == static_cast<std::int32_t>(job_.scene.stages.size());
     outcome.code = outcome.run.all_met() && all_stages ? exit_done : exit_unfinished;

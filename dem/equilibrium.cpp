@@ -152,6 +152,7 @@ Certificate evaluate_certificate(const Packing<2>& packing, const LawParameters&
 Certificate evaluate_certificate(const State& state) {
   Certificate c = evaluate_certificate(state.packing, state.law, state.imposed_stress, state.scene.equilibrium);
   c.finishing = state.certificate.finishing;
+  c.moving = std::max(c.moving, state.certificate.moving);  // a static solve knows of slower ones
   return c;
 }
 

@@ -304,9 +304,10 @@ class StageRun {
       s_.certificate.finishing = "newton";
     }
     // Vibrations are silent now, so that the kinetic criterion alone would end the stage; but floppy modes are on their
-    // way to a contact. When nothing can be done about them the criteria alone decide.
-    s_.progress.drifting = report.advanced || (s_.progress.drifting && report.capture);
+    // way to a contact. When nothing can be done about them the criteria alone decide, and the certificate says so.
+    s_.progress.drifting = report.moving == 0 && (report.advanced || (s_.progress.drifting && report.capture));
     certify();
+    s_.certificate.moving = std::max(s_.certificate.moving, report.moving);
     const double later = s_.time + kWait * (s_.time - s_.progress.start_time);
     s_.progress.quiet_since =
         (report.capture || report.advanced) && !report.stuck ? s_.time + kCapture - s_.scene.finish.quiet_time : later;

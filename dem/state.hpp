@@ -74,7 +74,8 @@ struct Certificate {
   std::int64_t sliding = 0;          // contacts with |T| >= (1 - 1e-6) mu N_e
   std::int64_t rolling_yielded = 0;  // contacts with |M| >= (1 - 1e-6) mu_r N_e
   double smallest_margin = 1;        // min over contacts of 1 - |T| / (mu N_e), and the same for rolling
-  std::int64_t moving = 0;           // grains whose own kinetic energy is above the tolerance of the mean
+  std::int64_t moving = 0;           // grains that still move: whose own kinetic energy is above the tolerance of the
+                                     // mean, or that a static solve found driven in floppy or very soft modes
   bool pressure_controlled = false;
   bool equilibrated = false;
   std::string finishing = "none";  // which finishing method acted, if any

@@ -75,7 +75,8 @@ const char* ImplicitStep::solve(Vector& u, double dt, const StepTolerance& toler
     for (int half = 0; half <= kMostHalvings && !better; ++half, fraction *= 0.5) {
       for (std::size_t c = 0; c < u.size(); ++c) trial[c] = u[c] + fraction * newton.x[c];
       Vector after = imbalance(trial, dt, links);
-      better = length(factor_.solve(after)) <= (1 - 0.25 * fraction) * size;
+      better = largest(after) <= tolerance.imbalance ||  // solved: what is left of floppy displacements is rounding
+               length(factor_.solve(after)) <= (1 - 0.25 * fraction) * size;
       if (better) r = std::move(after);
     }
     if (!better) {

@@ -25,6 +25,8 @@ constexpr std::int64_t kOnTrial = 40;    // [factorisations] between two looks a
 constexpr int kEasyIterations = 6;       // of Newton
 constexpr int kMostSteps = 400;          // that follow the motion
 constexpr int kMostPolishing = 100;      // from rest
+constexpr int kUsualPolishing = 12;      // are enough but for a mode that is softer than the longest step regularises
+constexpr double kLonger = 32;           // [-] then steps grow beyond that, to 1e-12 of K_N: well above rounding
 constexpr double kStepTolerance = 1e-3;  // of the force tolerance: how well an implicit step's equations are met
 constexpr double kDriftLeft = 1e-2;      // of the kinetic tolerance. Vibrations die at once here, but they are most
                                          // of the energy that lets floppy modes drift on under the bare law: to
@@ -149,7 +151,7 @@ class Settling {
       report_.settled = o.displacement < kAtRest && dt.value() >= longest_;
       last = step_.velocity();
       step_.stop();
-      dt.accepted(true, longest_);
+      dt.accepted(true, longest_ * std::clamp(std::exp2(k - kUsualPolishing), 1.0, kLonger));
     }
     if (report_.settled) {
       keep();
