@@ -268,6 +268,35 @@ TEST(NewtonFinishing, EndsAStageOfARun) {
   EXPECT_LT(s.certificate.kinetic_energy_per_grain, 1e-20);
 }
 
+// The criteria hold at the first look at a stage that begins near rest, at forces just below the tolerance.
+TEST(NewtonFinishing, EndsAStageThatBeginsWithinTheCriteria) {
+  Scene scene = scene_of(Finish::drag);
+  State loose = initial_state(scene, 5);
+  ASSERT_TRUE(run_stages(loose, {}, {}).all_met());
+  ASSERT_GT(loose.certificate.max_force, 1e-7);
+  scene.finish.method = Finish::newton;
+  State s = loose;
+  s.scene = scene, s.progress = {};
+  NewtonFinishing finisher;
+  const RunOutcome outcome = run_stages(s, {}, {}, &finisher);
+  ASSERT_TRUE(outcome.all_met());
+  EXPECT_EQ(outcome.steps, 0);
+  EXPECT_LT(s.certificate.max_force, 1e-9);
+}
+
+TEST(NewtonFinishing, AStageThatEndsWithAFloppyModeInMotionSaysSo) {
+  Scene scene = scene_of(Finish::newton);
+  scene.stages[0].pressure = 5e-5;  // below the tolerance: grains apart meet the criteria
+  State s = initial_state(scene, 3);
+  ASSERT_TRUE(s.packing.links.empty());
+  NewtonFinishing finisher;
+  const RunOutcome outcome = run_stages(s, {}, {}, &finisher);
+  ASSERT_TRUE(outcome.all_met());
+  EXPECT_GT(outcome.stages[0].moving, 0);
+  EXPECT_EQ(s.certificate.moving, outcome.stages[0].moving);
+  EXPECT_EQ(evaluate_certificate(s).moving, outcome.stages[0].moving);
+}
+
 TEST(NewtonFinishing, ARunWithoutASolverIsRefused) {
   State s = initial_state(scene_of(Finish::newton), 5);
   EXPECT_THROW(run_stages(s, {}, {}), InputError);
