@@ -70,9 +70,15 @@ double force_scale(const LawParameters& law, const ImposedStress& imposed) {
 }
 
 double static_normal_force(double gap, const LawParameters& law) {
-  if (gap < 0) return -law.normal_stiffness * gap - law.attraction;
-  if (law.attraction > 0 && gap <= law.attraction_range) return -law.attraction * (1 - gap / law.attraction_range);
+  if (gap < 0) return contact_normal_force(gap, law);
+  if (law.attraction > 0 && gap <= law.attraction_range) return distant_normal_force(gap, law);
   return 0;
+}
+double contact_normal_force(double gap, const LawParameters& law) {
+  return -law.normal_stiffness * gap - law.attraction;
+}
+double distant_normal_force(double gap, const LawParameters& law) {
+  return -law.attraction * (1 - gap / law.attraction_range);
 }
 
 YieldMargin yield_margin(double gap, double tangential_force, double moment, const LawParameters& law) {

@@ -20,6 +20,9 @@ double force_scale(const LawParameters& law, const ImposedStress& imposed);
 
 // Normal force of the static law (Eqs. 4-5) at the gap h: [F0], repulsion positive.
 double static_normal_force(double gap, const LawParameters& law);
+// Its two branches, whatever the gap: of a contact, and of a distant link within reach.
+double contact_normal_force(double gap, const LawParameters& law);
+double distant_normal_force(double gap, const LawParameters& law);
 
 // How far a contact is from yielding: 1 - |T| / (mu N_e) and 1 - |M| / (mu_r N_e), N_e = -K_N h (Eqs. 8, 10).
 struct YieldMargin {

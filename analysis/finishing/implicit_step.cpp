@@ -44,7 +44,7 @@ Vector ImplicitStep::first_guess(double dt) const {
   return u;
 }
 
-// Newton's method from a displacement u to the solution of the step.
+// Newton's method from a displacement u to the solution of the step, where the network then stands.
 const char* ImplicitStep::solve(Vector& u, double dt, const StepTolerance& tolerance, Links links, int& iterations) {
   const double shift = 1 / (dt * dt);
   Vector r = imbalance(u, dt, links), trial(u.size());
@@ -80,8 +80,9 @@ const char* ImplicitStep::solve(Vector& u, double dt, const StepTolerance& toler
       if (better) r = std::move(after);
     }
     if (!better) {
-      if (largest(r) <= tolerance.floor) return nullptr;
-      return "no step along Newton's direction lowers the imbalance";
+      if (!(largest(r) <= tolerance.floor)) return "no step along Newton's direction lowers the imbalance";
+      network_.forces(u, links);  // back from the last trial
+      return nullptr;
     }
     u.swap(trial);
     if (network_.largest_displacement(u) > 1.5 * network_.largest_step()) return "a grain moves too far in one step";
@@ -101,7 +102,6 @@ StepOutcome ImplicitStep::take(double dt, const StepTolerance& tolerance, Captur
     if (captured()) return refuse(o, "two grains come within reach");
   }
   if (const char* why = solve(u, dt, tolerance, Links::act, o.iterations)) return refuse(o, why);
-  network_.forces(u);
   if (captured()) return refuse(o, "two grains come within reach");
   network_.accept(u);
   before_ = velocity_, dt_before_ = last_dt_, last_dt_ = dt;

@@ -184,12 +184,12 @@ SettlingNetwork::Response SettlingNetwork::respond(const Pair& p, const Vec2& r,
   if (!((s.held ? p.gap : f.gap) < 0)) {
     s.active = law_.attraction > 0 && (s.held ? p.gap : f.gap) < law_.attraction_range;
     if (!s.active) return s;
-    s.normal = -law_.attraction * (1 - f.gap / law_.attraction_range);
+    s.normal = distant_normal_force(f.gap, law_);
     s.normal_stiffness = -law_.attraction / law_.attraction_range;
     return s;
   }
   s.active = true;
-  s.normal = -law_.normal_stiffness * f.gap - law_.attraction;
+  s.normal = contact_normal_force(f.gap, law_);
   s.normal_stiffness = law_.normal_stiffness;
   if (!(law_.friction > 0) && !(law_.rolling_friction > 0)) return s;
   const double repulsion = -law_.normal_stiffness * f.gap;
