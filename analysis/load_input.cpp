@@ -1,7 +1,7 @@
 #include "analysis/load_input.hpp"
 
+#include "dem/files/packing_file.hpp"
 #include "dem/input_error.hpp"
-#include "dem/packing_file.hpp"
 
 namespace isostat {
 

@@ -33,22 +33,6 @@ const std::vector<Section>& sections() {
   return table;
 }
 
-NetworkLaw AnalysisInput::network_law(const AnalysisOptions& options) const {
-  if (options.law) return *options.law;
-  if (!state || !(state->law.normal_stiffness > 0)) return NetworkLaw::friction;
-  if (!(state->law.friction > 0)) return NetworkLaw::frictionless;
-  return state->law.rolling_friction > 0 ? NetworkLaw::rolling : NetworkLaw::friction;
-}
-
-const Packing<2>& AnalysisInput::planar(std::string_view section) const {
-  if (packing_3d) refuse_section(*this, section, "is defined for packings in the plane; this one is in 3D");
-  return packing;
-}
-
-void refuse_section(const AnalysisInput& input, std::string_view section, std::string why) {
-  throw InputError(input.path, 0, "--only", std::string(section), std::move(why));
-}
-
 std::vector<std::string> parse_section_names(const std::string& comma_separated) {
   std::vector<std::string> names;
   std::vector<Fault> faults;

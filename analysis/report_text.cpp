@@ -6,7 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "dem/text_output.hpp"
+#include "dem/files/text_output.hpp"
 
 namespace isostat {
 namespace {

@@ -10,8 +10,8 @@
 #include "analysis/report_text.hpp"
 #include "apps/arguments.hpp"
 #include "apps/commands.hpp"
+#include "dem/files/text_output.hpp"
 #include "dem/input_error.hpp"
-#include "dem/text_output.hpp"
 
 namespace isostat {
 namespace {

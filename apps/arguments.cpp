@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "dem/input_error.hpp"
-#include "dem/suggestion.hpp"
+#include "dem/scene/suggestion.hpp"
 
 namespace isostat {
 namespace {

@@ -5,15 +5,15 @@
 
 #include "apps/arguments.hpp"
 #include "apps/commands.hpp"
-#include "dem/formats/csv.hpp"
-#include "dem/formats/dump.hpp"
-#include "dem/formats/vtp.hpp"
-#include "dem/formats/xyz.hpp"
+#include "dem/files/formats/csv.hpp"
+#include "dem/files/formats/dump.hpp"
+#include "dem/files/formats/vtp.hpp"
+#include "dem/files/formats/xyz.hpp"
+#include "dem/files/network_file.hpp"
+#include "dem/files/packing_file.hpp"
+#include "dem/files/state_file.hpp"
+#include "dem/files/text_output.hpp"
 #include "dem/input_error.hpp"
-#include "dem/network_file.hpp"
-#include "dem/packing_file.hpp"
-#include "dem/state_file.hpp"
-#include "dem/text_output.hpp"
 
 namespace isostat {
 namespace {

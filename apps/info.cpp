@@ -6,10 +6,10 @@
 
 #include "apps/arguments.hpp"
 #include "apps/commands.hpp"
-#include "dem/scales.hpp"
-#include "dem/scene_keys.hpp"
-#include "dem/state_file.hpp"
-#include "dem/state_seal.hpp"
+#include "dem/disks/scales.hpp"
+#include "dem/files/state_file.hpp"
+#include "dem/files/state_seal.hpp"
+#include "dem/scene/keys.hpp"
 
 namespace isostat {
 namespace {

@@ -3,7 +3,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "dem/atomic_file.hpp"
+#include "dem/files/atomic_file.hpp"
 
 namespace isostat {
 

@@ -8,11 +8,11 @@
 #include "apps/arguments.hpp"
 #include "apps/commands.hpp"
 #include "apps/json_output.hpp"
+#include "dem/disks/lab/cluster.hpp"
+#include "dem/disks/lab/pair.hpp"
+#include "dem/disks/lab/throughput.hpp"
+#include "dem/files/network_file.hpp"
 #include "dem/input_error.hpp"
-#include "dem/lab/cluster.hpp"
-#include "dem/lab/pair.hpp"
-#include "dem/lab/throughput.hpp"
-#include "dem/network_file.hpp"
 
 namespace isostat {
 namespace {

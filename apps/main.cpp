@@ -9,7 +9,7 @@
 #include "apps/arguments.hpp"
 #include "apps/commands.hpp"
 #include "dem/input_error.hpp"
-#include "dem/suggestion.hpp"
+#include "dem/scene/suggestion.hpp"
 
 namespace isostat {
 namespace {

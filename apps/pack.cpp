@@ -11,13 +11,13 @@
 #include "apps/interrupt.hpp"
 #include "apps/progress_line.hpp"
 #include "apps/sample_run.hpp"
-#include "dem/atomic_file.hpp"
+#include "dem/disks/sample.hpp"
+#include "dem/disks/scales.hpp"
+#include "dem/files/atomic_file.hpp"
 #include "dem/input_error.hpp"
-#include "dem/protocol.hpp"
-#include "dem/sample.hpp"
-#include "dem/scales.hpp"
-#include "dem/scene_file.hpp"
-#include "dem/team.hpp"
+#include "dem/run/stages.hpp"
+#include "dem/scene/file.hpp"
+#include "dem/solver/team.hpp"
 
 namespace isostat {
 namespace {

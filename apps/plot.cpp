@@ -6,7 +6,7 @@
 #include "analysis/figure/study_plot.hpp"
 #include "apps/arguments.hpp"
 #include "apps/commands.hpp"
-#include "dem/atomic_file.hpp"
+#include "dem/files/atomic_file.hpp"
 #include "dem/input_error.hpp"
 
 namespace isostat {

@@ -3,7 +3,7 @@
 #include <mutex>
 #include <string>
 
-#include "dem/protocol.hpp"
+#include "dem/run/stages.hpp"
 
 namespace isostat {
 

@@ -8,13 +8,13 @@
 
 #include "analysis/finishing/newton_finishing.hpp"
 #include "analysis/version.hpp"
-#include "dem/atomic_file.hpp"
+#include "dem/disks/sample.hpp"
+#include "dem/files/atomic_file.hpp"
+#include "dem/files/state_file.hpp"
 #include "dem/input_error.hpp"
+#include "dem/run/series.hpp"
 #include "dem/run_error.hpp"
-#include "dem/sample.hpp"
-#include "dem/scene_text.hpp"
-#include "dem/series.hpp"
-#include "dem/state_file.hpp"
+#include "dem/scene/text.hpp"
 
 namespace isostat {
 namespace {

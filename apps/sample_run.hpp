@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "apps/commands.hpp"
-#include "dem/protocol.hpp"
-#include "dem/scene.hpp"
-#include "dem/state.hpp"
+#include "dem/run/stages.hpp"
+#include "dem/scene/scene.hpp"
+#include "dem/state/state.hpp"
 
 namespace isostat {
 

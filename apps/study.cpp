@@ -20,9 +20,9 @@
 #include "apps/study/study.hpp"
 #include "apps/study/study_progress.hpp"
 #include "apps/study/study_tables.hpp"
-#include "dem/atomic_file.hpp"
+#include "dem/files/atomic_file.hpp"
+#include "dem/files/text_output.hpp"
 #include "dem/input_error.hpp"
-#include "dem/text_output.hpp"
 
 namespace isostat {
 namespace {

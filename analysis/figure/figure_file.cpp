@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "dem/atomic_file.hpp"
+#include "dem/files/atomic_file.hpp"
 #include "dem/input_error.hpp"
 
 namespace isostat {

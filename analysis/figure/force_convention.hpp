@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "dem/packing.hpp"
+#include "dem/state/packing.hpp"
 
 namespace isostat {
 

@@ -6,7 +6,7 @@
 
 #include "analysis/figure/canvas.hpp"
 #include "analysis/figure/picture_frame.hpp"
-#include "dem/packing.hpp"
+#include "dem/state/packing.hpp"
 
 namespace isostat {
 

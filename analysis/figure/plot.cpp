@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "dem/atomic_file.hpp"
+#include "dem/files/atomic_file.hpp"
 #include "dem/input_error.hpp"
 
 namespace isostat {

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "dem/input_error.hpp"
-#include "dem/suggestion.hpp"
+#include "dem/scene/suggestion.hpp"
 
 namespace isostat {
 namespace {

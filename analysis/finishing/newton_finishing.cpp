@@ -7,8 +7,8 @@
 #include "analysis/finishing/implicit_step.hpp"
 #include "analysis/finishing/settling_network.hpp"
 #include "analysis/vector_algebra.hpp"
-#include "dem/energy.hpp"
-#include "dem/equilibrium.hpp"
+#include "dem/state/certificate.hpp"
+#include "dem/state/energy.hpp"
 
 namespace isostat {
 namespace {

@@ -4,7 +4,7 @@
 #pragma once
 #include <functional>
 
-#include "dem/finishing.hpp"
+#include "dem/run/finishing.hpp"
 
 namespace isostat {
 

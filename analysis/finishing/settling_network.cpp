@@ -5,8 +5,8 @@
 #include <numeric>
 #include <tuple>
 
-#include "dem/equilibrium.hpp"
-#include "dem/touching.hpp"
+#include "dem/state/certificate.hpp"
+#include "dem/state/touching.hpp"
 
 namespace isostat {
 namespace {

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "analysis/stiffness/sparse_cholesky.hpp"
-#include "dem/finishing.hpp"
-#include "dem/link.hpp"
-#include "dem/state.hpp"
+#include "dem/run/finishing.hpp"
+#include "dem/state/link.hpp"
+#include "dem/state/state.hpp"
 
 namespace isostat {
 

@@ -1,4 +1,5 @@
-// Section "equilibrium": the certificate of dem/equilibrium.hpp, recomputed from the file, beside the one it stores.
+// Section "equilibrium": the certificate of dem/state/certificate.hpp, recomputed from the file, beside the one it
+// stores.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -6,8 +7,8 @@
 
 #include "analysis/network/force_scale.hpp"
 #include "analysis/network/sections.hpp"
-#include "dem/equilibrium.hpp"
-#include "dem/link.hpp"
+#include "dem/state/certificate.hpp"
+#include "dem/state/link.hpp"
 
 namespace isostat {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dem/equilibrium.hpp"
+#include "dem/state/certificate.hpp"
 
 namespace isostat {
 

@@ -1,6 +1,6 @@
 // How the forces of an input are to be read: whether it has any, their scale F1, and what counts as a loaded contact.
 #pragma once
-#include "analysis/report.hpp"
+#include "analysis/input.hpp"
 
 namespace isostat {
 

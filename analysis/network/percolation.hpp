@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "dem/packing.hpp"
+#include "dem/state/packing.hpp"
 
 namespace isostat {
 

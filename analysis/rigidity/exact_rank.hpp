@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/report.hpp"
-#include "dem/packing.hpp"
+#include "analysis/input.hpp"
+#include "dem/state/packing.hpp"
 
 namespace isostat {
 

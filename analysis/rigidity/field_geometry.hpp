@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "analysis/rigidity/prime_field.hpp"
-#include "dem/packing.hpp"
+#include "dem/state/packing.hpp"
 
 namespace isostat {
 

@@ -3,8 +3,8 @@
 #pragma once
 #include <cstdint>
 
-#include "analysis/report.hpp"
-#include "dem/packing.hpp"
+#include "analysis/input.hpp"
+#include "dem/state/packing.hpp"
 
 namespace isostat {
 

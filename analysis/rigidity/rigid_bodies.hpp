@@ -11,8 +11,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "analysis/report.hpp"
-#include "dem/packing.hpp"
+#include "analysis/input.hpp"
+#include "dem/state/packing.hpp"
 
 namespace isostat {
 

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "dem/input_error.hpp"
-#include "dem/link.hpp"
+#include "dem/state/link.hpp"
 
 namespace isostat {
 namespace {

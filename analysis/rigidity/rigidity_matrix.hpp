@@ -1,5 +1,5 @@
 // The rigidity matrix G of a packing (Gilabert 2007, Eqs. A1-A3): body velocities to link velocities, with the sign
-// convention of dem/link.hpp; its transpose takes link forces to body forces (Eq. A5).
+// convention of dem/state/link.hpp; its transpose takes link forces to body forces (Eq. A5).
 #pragma once
 #include <cstdint>
 #include <vector>

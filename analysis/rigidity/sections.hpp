@@ -3,7 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
-#include "analysis/report.hpp"
+#include "analysis/section.hpp"
 
 namespace isostat {
 

@@ -2,8 +2,8 @@
 #pragma once
 #include <vector>
 
-#include "analysis/report.hpp"
-#include "dem/packing.hpp"
+#include "analysis/input.hpp"
+#include "dem/state/packing.hpp"
 
 namespace isostat {
 

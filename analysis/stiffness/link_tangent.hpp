@@ -6,8 +6,8 @@
 
 #include "analysis/rigidity/rigidity_matrix.hpp"
 #include "analysis/stiffness/unsymmetric_lu.hpp"
-#include "dem/link.hpp"
-#include "dem/scene.hpp"
+#include "dem/scene/scene.hpp"
+#include "dem/state/link.hpp"
 
 namespace isostat {
 

@@ -4,7 +4,7 @@
 #include "analysis/stiffness/pseudo_inverse.hpp"
 #include "analysis/stiffness/stiffness_matrix.hpp"
 #include "analysis/vector_algebra.hpp"
-#include "dem/link.hpp"
+#include "dem/state/link.hpp"
 
 namespace isostat {
 namespace {

@@ -4,8 +4,8 @@
 #include <array>
 #include <string>
 
-#include "analysis/report.hpp"
-#include "dem/scene.hpp"
+#include "analysis/input.hpp"
+#include "dem/scene/scene.hpp"
 
 namespace isostat {
 

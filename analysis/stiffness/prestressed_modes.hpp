@@ -4,8 +4,8 @@
 #include <complex>
 #include <vector>
 
-#include "analysis/report.hpp"
-#include "dem/scene.hpp"
+#include "analysis/input.hpp"
+#include "dem/scene/scene.hpp"
 
 namespace isostat {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "analysis/report.hpp"
+#include "analysis/input.hpp"
 
 namespace isostat {
 

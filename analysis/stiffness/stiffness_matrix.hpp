@@ -4,7 +4,7 @@
 
 #include "analysis/rigidity/rigidity_matrix.hpp"
 #include "analysis/stiffness/sparse_cholesky.hpp"
-#include "dem/scene.hpp"
+#include "dem/scene/scene.hpp"
 
 namespace isostat {
 

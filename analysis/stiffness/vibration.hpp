@@ -2,8 +2,8 @@
 #pragma once
 #include <vector>
 
-#include "analysis/report.hpp"
-#include "dem/scene.hpp"
+#include "analysis/input.hpp"
+#include "dem/scene/scene.hpp"
 
 namespace isostat {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "analysis/report.hpp"
+#include "analysis/input.hpp"
 #include "analysis/structure/intensity.hpp"
 
 namespace isostat {

@@ -2,7 +2,7 @@
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 
-#include "analysis/report.hpp"
+#include "analysis/input.hpp"
 
 namespace isostat {
 

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/report.hpp"
-#include "dem/atomic_file.hpp"
+#include "dem/files/atomic_file.hpp"
 #include "dem/input_error.hpp"
-#include "dem/physical_hash.hpp"
+#include "dem/state/physical_hash.hpp"
 
 namespace isostat {
 namespace {

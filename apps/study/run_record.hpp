@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "dem/state.hpp"
+#include "dem/state/state.hpp"
 
 namespace isostat {
 

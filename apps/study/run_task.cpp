@@ -11,7 +11,7 @@
 #include "apps/study/process_pool.hpp"
 #include "apps/study/state_digest.hpp"
 #include "apps/study/state_report.hpp"
-#include "dem/state_file.hpp"
+#include "dem/files/state_file.hpp"
 
 namespace isostat {
 namespace {

@@ -4,7 +4,7 @@
 #include <map>
 #include <tuple>
 
-#include "dem/state_file.hpp"
+#include "dem/files/state_file.hpp"
 
 namespace isostat {
 

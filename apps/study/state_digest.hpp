@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "dem/scene.hpp"
+#include "dem/scene/scene.hpp"
 
 namespace isostat {
 

@@ -5,10 +5,11 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/load_input.hpp"
+#include "analysis/report.hpp"
 #include "analysis/version.hpp"
 #include "apps/study/state_digest.hpp"
-#include "dem/atomic_file.hpp"
-#include "dem/scene_text.hpp"
+#include "dem/files/atomic_file.hpp"
+#include "dem/scene/text.hpp"
 
 namespace isostat {
 namespace {

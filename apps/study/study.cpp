@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "dem/scene_keys.hpp"
-#include "dem/scene_text.hpp"
+#include "dem/scene/keys.hpp"
+#include "dem/scene/text.hpp"
 
 namespace isostat {
 namespace {

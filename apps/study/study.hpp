@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/report.hpp"
-#include "dem/scene.hpp"
+#include "analysis/input.hpp"
+#include "dem/scene/scene.hpp"
 
 namespace isostat {
 

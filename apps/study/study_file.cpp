@@ -10,13 +10,14 @@
 #include <sstream>
 #include <tuple>
 
+#include "analysis/report.hpp"
 #include "apps/study/study.hpp"
-#include "dem/atomic_file.hpp"
+#include "dem/files/atomic_file.hpp"
 #include "dem/input_error.hpp"
-#include "dem/scene_file.hpp"
-#include "dem/scene_keys.hpp"
-#include "dem/scene_text.hpp"
-#include "dem/suggestion.hpp"
+#include "dem/scene/file.hpp"
+#include "dem/scene/keys.hpp"
+#include "dem/scene/suggestion.hpp"
+#include "dem/scene/text.hpp"
 
 namespace isostat {
 namespace {

@@ -9,7 +9,7 @@
 #include "analysis/report_text.hpp"
 #include "analysis/version.hpp"
 #include "apps/study/state_report.hpp"
-#include "dem/scene_text.hpp"
+#include "dem/scene/text.hpp"
 
 namespace isostat {
 namespace {

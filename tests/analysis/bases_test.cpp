@@ -7,8 +7,8 @@
 
 #include "analysis/rigidity/exact_rank.hpp"
 #include "analysis/rigidity/rigidity_matrix.hpp"
-#include "dem/network_file.hpp"
-#include "tests/oracle/random_network.hpp"
+#include "dem/files/network_file.hpp"
+#include "tests/support/random_network.hpp"
 
 namespace isostat {
 namespace {

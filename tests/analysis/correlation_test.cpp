@@ -10,9 +10,9 @@
 #include "analysis/structure/mean_overlap.hpp"
 #include "analysis/structure/sections.hpp"
 #include "geometry/pores.hpp"
-#include "tests/oracle/disk_packings.hpp"
 #include "tests/oracle/exact_correlation.hpp"
-#include "tests/oracle/packing_input.hpp"
+#include "tests/support/disk_packings.hpp"
+#include "tests/support/packing_input.hpp"
 
 namespace isostat {
 namespace {

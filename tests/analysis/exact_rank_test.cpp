@@ -11,10 +11,10 @@
 
 #include "analysis/rigidity/rigid_bodies.hpp"
 #include "analysis/rigidity/rigidity_matrix.hpp"
+#include "dem/files/network_file.hpp"
 #include "dem/input_error.hpp"
-#include "dem/network_file.hpp"
-#include "tests/oracle/random_network.hpp"
 #include "tests/oracle/rational_rank.hpp"
+#include "tests/support/random_network.hpp"
 
 namespace isostat {
 namespace {

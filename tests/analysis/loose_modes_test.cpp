@@ -11,7 +11,7 @@
 #include "analysis/stiffness/lowest_modes.hpp"
 #include "analysis/stiffness/soft_modes.hpp"
 #include "analysis/stiffness/stiffness_matrix.hpp"
-#include "tests/oracle/random_network.hpp"
+#include "tests/support/random_network.hpp"
 
 namespace isostat {
 namespace {

@@ -10,10 +10,10 @@
 #include "analysis/network/histogram.hpp"
 #include "analysis/network/percolation.hpp"
 #include "analysis/network/sections.hpp"
-#include "dem/equilibrium.hpp"
+#include "dem/files/network_file.hpp"
 #include "dem/input_error.hpp"
-#include "dem/network_file.hpp"
-#include "dem/touching.hpp"
+#include "dem/state/certificate.hpp"
+#include "dem/state/touching.hpp"
 #include "tests/oracle/network_oracle.hpp"
 
 namespace isostat {

@@ -6,8 +6,8 @@
 #include "analysis/report.hpp"
 #include "analysis/structure/sections.hpp"
 #include "dem/input_error.hpp"
-#include "tests/oracle/disk_packings.hpp"
-#include "tests/oracle/packing_input.hpp"
+#include "tests/support/disk_packings.hpp"
+#include "tests/support/packing_input.hpp"
 
 namespace isostat {
 namespace {

@@ -11,7 +11,7 @@
 #include "analysis/stiffness/stiffness_matrix.hpp"
 #include "analysis/stiffness/vibration.hpp"
 #include "tests/oracle/network_oracle.hpp"
-#include "tests/oracle/random_network.hpp"
+#include "tests/support/random_network.hpp"
 
 namespace isostat {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "dem/link.hpp"
-#include "tests/oracle/random_network.hpp"
+#include "dem/state/link.hpp"
+#include "tests/support/random_network.hpp"
 
 namespace isostat {
 namespace {
@@ -43,7 +43,7 @@ TEST(RigidityMatrix, TransposeIsTheAdjoint) {
     }
 }
 
-// Every row against dem/link.hpp applied to the velocities themselves, and G^T f against link_load.
+// Every row against dem/state/link.hpp applied to the velocities themselves, and G^T f against link_load.
 TEST(RigidityMatrix, RowsAreTheLinkVelocitiesOfTheKernels) {
   std::mt19937_64 random(2);
   for (std::uint64_t seed = 0; seed < 10; ++seed) {

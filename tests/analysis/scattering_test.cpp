@@ -11,9 +11,9 @@
 #include "analysis/structure/sections.hpp"
 #include "dem/input_error.hpp"
 #include "geometry/pores.hpp"
-#include "tests/oracle/disk_packings.hpp"
-#include "tests/oracle/packing_input.hpp"
 #include "tests/oracle/union_mesh.hpp"
+#include "tests/support/disk_packings.hpp"
+#include "tests/support/packing_input.hpp"
 
 namespace isostat {
 namespace {

@@ -12,8 +12,8 @@
 #include "analysis/stiffness/soft_modes.hpp"
 #include "analysis/stiffness/stiffness_matrix.hpp"
 #include "analysis/stiffness/vibration.hpp"
-#include "dem/network_file.hpp"
-#include "tests/oracle/random_network.hpp"
+#include "dem/files/network_file.hpp"
+#include "tests/support/random_network.hpp"
 
 namespace isostat {
 namespace {

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "dem/scene_file.hpp"
-#include "dem/state_file.hpp"
+#include "dem/files/state_file.hpp"
+#include "dem/scene/file.hpp"
 #include "tests/apps/program.hpp"
 
 namespace isostat {

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "dem/physical_hash.hpp"
-#include "dem/state_file.hpp"
+#include "dem/files/state_file.hpp"
+#include "dem/state/physical_hash.hpp"
 #include "tests/apps/program.hpp"
 
 namespace isostat {

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
-#include "tests/oracle/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace isostat {
 

@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "analysis/figure/data_table.hpp"
-#include "dem/state_file.hpp"
+#include "dem/files/state_file.hpp"
 #include "tests/apps/program.hpp"
 
 namespace isostat {

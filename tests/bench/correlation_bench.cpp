@@ -6,8 +6,8 @@
 #include <ctime>
 
 #include "analysis/structure/correlation.hpp"
-#include "tests/oracle/disk_packings.hpp"
 #include "tests/oracle/exact_correlation.hpp"
+#include "tests/support/disk_packings.hpp"
 
 using namespace isostat;
 

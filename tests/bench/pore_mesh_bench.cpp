@@ -4,8 +4,8 @@
 #include <ctime>
 
 #include "geometry/pores.hpp"
-#include "tests/oracle/disk_packings.hpp"
 #include "tests/oracle/union_mesh.hpp"
+#include "tests/support/disk_packings.hpp"
 
 using namespace isostat;
 

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "geometry/pores.hpp"
-#include "tests/oracle/disk_packings.hpp"
 #include "tests/oracle/union_mesh.hpp"
+#include "tests/support/disk_packings.hpp"
 
 using namespace isostat;
 

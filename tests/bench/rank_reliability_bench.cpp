@@ -11,7 +11,7 @@
 #include "analysis/rigidity/exact_rank.hpp"
 #include "analysis/rigidity/rigidity_matrix.hpp"
 #include "analysis/stiffness/stiffness_matrix.hpp"
-#include "tests/oracle/random_network.hpp"
+#include "tests/support/random_network.hpp"
 
 using namespace isostat;
 

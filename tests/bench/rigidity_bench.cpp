@@ -9,7 +9,7 @@
 #include <ctime>
 
 #include "analysis/rigidity/exact_rank.hpp"
-#include "tests/oracle/random_network.hpp"
+#include "tests/support/random_network.hpp"
 
 using namespace isostat;
 

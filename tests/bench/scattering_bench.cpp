@@ -11,8 +11,8 @@
 
 #include "analysis/structure/intensity.hpp"
 #include "tests/oracle/direct_transform.hpp"
-#include "tests/oracle/disk_packings.hpp"
 #include "tests/oracle/union_mesh.hpp"
+#include "tests/support/disk_packings.hpp"
 
 using namespace isostat;
 

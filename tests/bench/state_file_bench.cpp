@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <random>
 
-#include "dem/physical_hash.hpp"
-#include "dem/state_file.hpp"
+#include "dem/files/state_file.hpp"
+#include "dem/state/physical_hash.hpp"
 
 namespace {
 

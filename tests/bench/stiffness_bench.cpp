@@ -13,7 +13,7 @@
 #include "analysis/rigidity/independent_columns.hpp"
 #include "analysis/stiffness/lowest_modes.hpp"
 #include "analysis/stiffness/stiffness_matrix.hpp"
-#include "tests/oracle/random_network.hpp"
+#include "tests/support/random_network.hpp"
 
 using namespace isostat;
 

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "dem/physical_hash.hpp"
-#include "dem/protocol.hpp"
-#include "dem/series.hpp"
-#include "dem/state_file.hpp"
-#include "tests/oracle/disk_states.hpp"
-#include "tests/oracle/temporary_folder.hpp"
+#include "dem/files/state_file.hpp"
+#include "dem/run/series.hpp"
+#include "dem/run/stages.hpp"
+#include "dem/state/physical_hash.hpp"
+#include "tests/support/disk_states.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace isostat {
 namespace {

@@ -1,4 +1,4 @@
-#include "dem/equilibrium.hpp"
+#include "dem/state/certificate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,17 +6,17 @@
 #include <filesystem>
 #include <fstream>
 
-#include "dem/formats/csv.hpp"
-#include "dem/formats/dump.hpp"
-#include "dem/formats/vtp.hpp"
-#include "dem/formats/xyz.hpp"
+#include "dem/files/formats/csv.hpp"
+#include "dem/files/formats/dump.hpp"
+#include "dem/files/formats/vtp.hpp"
+#include "dem/files/formats/xyz.hpp"
+#include "dem/files/network_file.hpp"
+#include "dem/files/packing_file.hpp"
+#include "dem/files/state_file.hpp"
+#include "dem/files/text_output.hpp"
 #include "dem/input_error.hpp"
-#include "dem/network_file.hpp"
-#include "dem/packing_file.hpp"
-#include "dem/state_file.hpp"
-#include "dem/text_output.hpp"
 #include "tests/oracle/network_oracle.hpp"
-#include "tests/oracle/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace isostat {
 namespace {

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "dem/input_error.hpp"
-#include "dem/scene_file.hpp"
+#include "dem/scene/file.hpp"
 #include "tests/fuzz/fuzz_targets.hpp"
 #include "tests/fuzz/seeds.hpp"
 

@@ -1,13 +1,13 @@
 // Contacts that stay at the edge of their range, h ~ 0. There the law is homogeneous (forces and the weights of
-// dem/kernel/crossing.hpp depend on h and dh/dt to first and zeroth order), so an amplitude can only grow or decay for
-// ever; that it decays to rounding shows that forming and ending contacts feed no jitter.
+// dem/disks/kernel/crossing.hpp depend on h and dh/dt to first and zeroth order), so an amplitude can only grow or
+// decay for ever; that it decays to rounding shows that forming and ending contacts feed no jitter.
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "dem/sample.hpp"
-#include "dem/scales.hpp"
-#include "dem/solver.hpp"
+#include "dem/disks/sample.hpp"
+#include "dem/disks/scales.hpp"
+#include "dem/solver/solver.hpp"
 
 namespace isostat {
 namespace {

@@ -1,4 +1,4 @@
-#include "dem/network_file.hpp"
+#include "dem/files/network_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "dem/input_error.hpp"
-#include "dem/touching.hpp"
+#include "dem/state/touching.hpp"
 
 namespace isostat {
 namespace {

@@ -1,17 +1,17 @@
 // Every kernel (law x instruction set x tally x images) against the reference law of tests/oracle/disk_reference, on
 // random pairs: bodies shared by several pairs, some pairs in contact, some just formed, some across a gap, some out of
 // reach, padding at the end.
-#include "dem/kernel/pair_force.hpp"
+#include "dem/disks/kernel/pair_force.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "dem/aligned.hpp"
-#include "dem/bodies_store.hpp"
+#include "dem/disks/bodies_store.hpp"
 #include "dem/input_error.hpp"
-#include "dem/random.hpp"
+#include "dem/solver/aligned.hpp"
+#include "dem/solver/random.hpp"
 #include "tests/oracle/disk_reference.hpp"
 
 namespace isostat {

@@ -1,5 +1,5 @@
 // The hash of a state sees its physics, every number of it, and nothing else.
-#include "dem/physical_hash.hpp"
+#include "dem/state/physical_hash.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -10,7 +10,7 @@
 #include <numeric>
 #include <random>
 
-#include "tests/oracle/random_state.hpp"
+#include "tests/support/random_state.hpp"
 
 namespace isostat {
 namespace {

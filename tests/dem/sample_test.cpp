@@ -1,5 +1,5 @@
 // Starting from a file: what is taken over from it, and what is refused.
-#include "dem/sample.hpp"
+#include "dem/disks/sample.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "dem/disks/scales.hpp"
 #include "dem/input_error.hpp"
-#include "dem/scales.hpp"
-#include "tests/oracle/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace isostat {
 namespace {

@@ -1,5 +1,5 @@
 // Scene files: what is read is what was written, every fault is found, and the page of keys is the table of keys.
-#include "dem/scene_file.hpp"
+#include "dem/scene/file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,13 +11,13 @@
 #include <fstream>
 #include <sstream>
 
+#include "dem/disks/scales.hpp"
 #include "dem/input_error.hpp"
-#include "dem/scales.hpp"
-#include "dem/scene_check.hpp"
-#include "dem/scene_documentation.hpp"
-#include "dem/scene_keys.hpp"
-#include "dem/scene_text.hpp"
-#include "dem/suggestion.hpp"
+#include "dem/scene/check.hpp"
+#include "dem/scene/documentation.hpp"
+#include "dem/scene/keys.hpp"
+#include "dem/scene/suggestion.hpp"
+#include "dem/scene/text.hpp"
 
 namespace isostat {
 namespace {

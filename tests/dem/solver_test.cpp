@@ -1,6 +1,6 @@
 // The solver against the reference of tests/oracle/disk_reference: lists, sorting, wrapping, batches and cell against
 // all pairs by brute force.
-#include "dem/solver.hpp"
+#include "dem/solver/solver.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 
 #include "dem/run_error.hpp"
 #include "tests/oracle/disk_reference.hpp"
-#include "tests/oracle/disk_states.hpp"
+#include "tests/support/disk_states.hpp"
 
 namespace isostat {
 namespace {

@@ -4,14 +4,14 @@
 
 #include <cmath>
 
-#include "dem/clusters.hpp"
-#include "dem/energy.hpp"
-#include "dem/physical_hash.hpp"
-#include "dem/protocol.hpp"
-#include "dem/sample.hpp"
-#include "dem/scene_file.hpp"
-#include "dem/solver.hpp"
-#include "dem/state_file.hpp"
+#include "dem/disks/sample.hpp"
+#include "dem/files/state_file.hpp"
+#include "dem/run/stages.hpp"
+#include "dem/scene/file.hpp"
+#include "dem/solver/solver.hpp"
+#include "dem/state/clusters.hpp"
+#include "dem/state/energy.hpp"
+#include "dem/state/physical_hash.hpp"
 
 namespace isostat {
 namespace {

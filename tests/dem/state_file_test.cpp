@@ -1,6 +1,6 @@
 // State files: everything comes back, the same state gives the same bytes, and whatever is wrong with a file is one
 // InputError.
-#include "dem/state_file.hpp"
+#include "dem/files/state_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,13 +18,13 @@
 #include <limits>
 #include <sstream>
 
-#include "dem/atomic_file.hpp"
+#include "dem/files/atomic_file.hpp"
+#include "dem/files/state_seal.hpp"
 #include "dem/input_error.hpp"
-#include "dem/physical_hash.hpp"
-#include "dem/state_check.hpp"
-#include "dem/state_seal.hpp"
-#include "tests/oracle/random_state.hpp"
-#include "tests/oracle/temporary_folder.hpp"
+#include "dem/state/physical_hash.hpp"
+#include "dem/state/state_check.hpp"
+#include "tests/support/random_state.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace isostat {
 namespace {

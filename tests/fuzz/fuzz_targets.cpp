@@ -5,16 +5,16 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "dem/formats/csv.hpp"
-#include "dem/formats/dump.hpp"
+#include "dem/files/formats/csv.hpp"
+#include "dem/files/formats/dump.hpp"
+#include "dem/files/network_file.hpp"
+#include "dem/files/packing_file.hpp"
+#include "dem/files/state_file.hpp"
 #include "dem/input_error.hpp"
-#include "dem/network_file.hpp"
-#include "dem/packing_file.hpp"
-#include "dem/scene_file.hpp"
-#include "dem/scene_text.hpp"
-#include "dem/state_check.hpp"
-#include "dem/state_file.hpp"
-#include "tests/oracle/temporary_folder.hpp"
+#include "dem/scene/file.hpp"
+#include "dem/scene/text.hpp"
+#include "dem/state/state_check.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace isostat {
 namespace {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "dem/atomic_file.hpp"
-#include "dem/formats/csv.hpp"
-#include "dem/formats/dump.hpp"
-#include "dem/network_file.hpp"
-#include "dem/state_file.hpp"
+#include "dem/files/atomic_file.hpp"
+#include "dem/files/formats/csv.hpp"
+#include "dem/files/formats/dump.hpp"
+#include "dem/files/network_file.hpp"
+#include "dem/files/state_file.hpp"
 
 namespace isostat {
 namespace {

@@ -3,7 +3,7 @@
 #include <exception>
 #include <filesystem>
 
-#include "dem/atomic_file.hpp"
+#include "dem/files/atomic_file.hpp"
 #include "tests/fuzz/seeds.hpp"
 
 int main(int argc, char** argv) try {

@@ -11,8 +11,8 @@
 #include <random>
 
 #include "tests/oracle/arc_arrangement.hpp"
-#include "tests/oracle/disk_packings.hpp"
 #include "tests/oracle/union_mesh.hpp"
+#include "tests/support/disk_packings.hpp"
 
 namespace isostat {
 namespace {

@@ -1,7 +1,8 @@
 # Target `headers` (not part of `all`): each header compiles alone, and twice in a row.
 file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/geometry/*.hpp
   ${PROJECT_SOURCE_DIR}/dem/*.hpp ${PROJECT_SOURCE_DIR}/analysis/*.hpp ${PROJECT_SOURCE_DIR}/apps/*.hpp
-  ${PROJECT_SOURCE_DIR}/tests/oracle/*.hpp)
+  ${PROJECT_SOURCE_DIR}/tests/oracle/*.hpp
+  ${PROJECT_SOURCE_DIR}/tests/support/*.hpp)
 set(units)
 foreach(header ${headers})
   string(REGEX REPLACE "/" "." name ${header})

@@ -1,15 +1,20 @@
 #!/usr/bin/env bash
-# layering.sh ROOT: which room may include which (CMakeLists.txt lists them in the order of their dependencies).
-# Prints every offence as FILE: what it reaches, and exits 1 if there is one.
-#   geometry sees itself; dem sees geometry; analysis sees both but never what marches a state in time; no header shows
-#   a type of CGAL, SuiteSparse, GSL, HDF5, Cairo, FFTW or toml++.
+# layering.sh ROOT: which room and which folder may include which. Prints every offence as FILE: what it reaches, and
+# exits 1 if there is one. The layers are data: a file sees its own layer and those of lower rank.
+#   rooms     geometry < dem < analysis < apps (CMakeLists.txt lists them in this order)
+#   dem       headers of scene < state < solver < run and files; the folder of a system stands on all of them
+#   analysis  sees states and the interface of finishing, never what marches a state in time, not even by a chain
+#   headers   no header shows a type of CGAL, SuiteSparse, GSL, HDF5, Cairo, FFTW or toml++
 set -euo pipefail
 cd "$1"
 mapfile -t files < <(find geometry dem analysis apps -name '*.hpp' -o -name '*.cpp' | sort)
 ((${#files[@]})) || { echo "no source file under $1" >&2; exit 1; }
 
 awk '
-function rank(file) { return order[substr(file, 1, index(file, "/") - 1)] }
+function folder(file,    part, n) {  # dem/state/link.hpp: dem/state; analysis/network/x.hpp: analysis
+  n = split(file, part, "/")
+  return part[1] == "dem" && n > 2 ? part[1] "/" part[2] : part[1]
+}
 function reaches(file, origin, chain,    n, list, k) {  # depth first through the includes of the project
   if (seen[origin, file]++) return
   if (file != origin && file ~ marching) { print origin ": reaches the solver by" chain; bad = 1; return }
@@ -17,18 +22,26 @@ function reaches(file, origin, chain,    n, list, k) {  # depth first through th
   for (k = 1; k <= n; ++k) reaches(list[k], origin, chain " " list[k])
 }
 BEGIN {
-  order["geometry"] = 1; order["dem"] = 2; order["analysis"] = 3; order["apps"] = 4
-  marching = "^dem/(kernel/|solver|stepper|neighbours|bodies_store|team|protocol|barostat)"
+  room["geometry"] = 1; room["dem"] = 2; room["analysis"] = 3; room["apps"] = 4
+  layer["dem/scene"] = 1; layer["dem/state"] = 2; layer["dem/solver"] = 3; layer["dem/run"] = 4; layer["dem/files"] = 4
+  marching = "^dem/(solver/(solver|neighbours|team|barostat)|run/(stage|stages|observers)[a-z_]*\\.|disks/(kernel/|engine|bodies_store|motion|pairs))"
   foreign = "^(CGAL|boost)/|^(suitesparse/)?(cholmod|umfpack|SuiteSparse|amd|metis)[^/]*\\.h|^gsl/|^(hdf5|H5)|^cairo|^fftw3|^toml"
 }
 FNR == 1 { all[FILENAME] }
 /^[ \t]*#[ \t]*include[ \t]*[<"]/ {
   match($0, /[<"][^>"]+[>"]/)
   target = substr($0, RSTART + 1, RLENGTH - 2)
-  if (FILENAME ~ /\.hpp$/ && target ~ foreign) { print FILENAME ": shows " target " in a header"; bad = 1 }
-  room = substr(target, 1, index(target, "/") - 1)
-  if (!(room in order)) next
-  if (order[room] > rank(FILENAME)) { print FILENAME ": includes " target " of a later room"; bad = 1 }
+  header = FILENAME ~ /\.hpp$/
+  if (header && target ~ foreign) { print FILENAME ": shows " target " in a header"; bad = 1 }
+  from = folder(FILENAME); to = folder(target)
+  to_room = substr(target, 1, index(target, "/") - 1)
+  if (!(to_room in room)) next
+  if (room[to_room] > room[substr(FILENAME, 1, index(FILENAME, "/") - 1)]) {
+    print FILENAME ": includes " target " of a later room"; bad = 1
+  }
+  if (header && from in layer && to in layer && layer[to] > layer[from]) {
+    print FILENAME ": includes " target " of a later layer"; bad = 1
+  }
   includes[FILENAME] = includes[FILENAME] " " target
 }
 END {

@@ -7,13 +7,15 @@ trap 'rm -rf "$root"' EXIT
 
 clean_tree() {
   rm -rf "${root:?}"/*
-  mkdir -p "$root"/{geometry,dem/kernel,analysis,apps}
+  mkdir -p "$root"/{geometry,dem/scene,dem/state,dem/solver,dem/files,dem/disks/kernel,analysis,apps}
   echo '#include <vector>' > "$root/geometry/cell.hpp"
-  echo '#include "geometry/cell.hpp"' > "$root/dem/state.hpp"
-  echo '#include "dem/state.hpp"' > "$root/dem/kernel/march.hpp"
-  printf '#include <hdf5.h>\n#include "dem/state.hpp"\n' > "$root/dem/state_file.cpp"
-  echo '#include "dem/state.hpp"' > "$root/analysis/counts.hpp"
-  printf '#include "analysis/counts.hpp"\n#include "dem/kernel/march.hpp"\n' > "$root/apps/main.cpp"
+  echo '#include "geometry/cell.hpp"' > "$root/dem/state/state.hpp"
+  echo '#include "dem/state/state.hpp"' > "$root/dem/disks/kernel/march.hpp"
+  echo '#include "dem/state/state.hpp"' > "$root/dem/solver/march.hpp"
+  echo '#include <vector>' > "$root/dem/scene/scene.hpp"
+  printf '#include <hdf5.h>\n#include "dem/state/state.hpp"\n' > "$root/dem/files/state_file.cpp"
+  echo '#include "dem/state/state.hpp"' > "$root/analysis/counts.hpp"
+  printf '#include "analysis/counts.hpp"\n#include "dem/disks/kernel/march.hpp"\n' > "$root/apps/main.cpp"
 }
 refuses() {  # FILE INCLUDE: adding that line to a clean tree must be refused, with the file named
   clean_tree
@@ -24,17 +26,19 @@ refuses() {  # FILE INCLUDE: adding that line to a clean tree must be refused, w
 
 clean_tree
 bash "$check" "$root" || { echo "refused a clean tree"; exit 1; }
-refuses geometry/cell.hpp '"dem/state.hpp"'
+refuses geometry/cell.hpp '"dem/state/state.hpp"'
 refuses geometry/cell.hpp '"analysis/counts.hpp"'
-refuses dem/state.hpp '"analysis/counts.hpp"'
-refuses dem/state_file.cpp '"apps/commands.hpp"'
+refuses dem/state/state.hpp '"analysis/counts.hpp"'
+refuses dem/state/state.hpp '"dem/solver/march.hpp"'
+refuses dem/scene/scene.hpp '"dem/state/state.hpp"'
+refuses dem/files/state_file.cpp '"apps/commands.hpp"'
 refuses analysis/counts.hpp '"apps/commands.hpp"'
-refuses analysis/counts.hpp '"dem/kernel/march.hpp"'
+refuses analysis/counts.hpp '"dem/disks/kernel/march.hpp"'
 for header in CGAL/Cartesian.h cholmod.h suitesparse/umfpack.h gsl/gsl_fit.h hdf5.h H5Ipublic.h cairo.h cairo/cairo-svg.h \
     fftw3.h toml++/toml.h; do
-  refuses dem/state.hpp "<$header>"
+  refuses dem/state/state.hpp "<$header>"
 done
 clean_tree  # the solver reached through a chain of headers
-echo '#include "dem/kernel/march.hpp"' >> "$root/dem/state_tools.hpp"
-echo '#include "dem/state_tools.hpp"' >> "$root/analysis/counts.hpp"
+echo '#include "dem/disks/kernel/march.hpp"' >> "$root/dem/state/state_tools.hpp"
+echo '#include "dem/state/state_tools.hpp"' >> "$root/analysis/counts.hpp"
 if bash "$check" "$root" > /dev/null; then echo "accepted a chain to the solver"; exit 1; fi

@@ -3,7 +3,7 @@
 #pragma once
 #include <complex>
 
-#include "tests/oracle/disk_packings.hpp"
+#include "tests/support/disk_packings.hpp"
 
 namespace isostat::oracle {
 

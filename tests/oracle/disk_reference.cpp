@@ -30,7 +30,7 @@ PairResponse pair_response(const LawParameters& law, const PairMoment& c) {
   const double lever_j = distance * c.radius_j / (c.radius_i + c.radius_j);
   out.gap = h;
 
-  // A contact that forms or ends within a step exists for a part of it (dem/kernel/crossing.hpp).
+  // A contact that forms or ends within a step exists for a part of it (dem/disks/kernel/crossing.hpp).
   const double moved = (nx * c.u + ny * c.v) * c.time_step;
   const double reduced = c.mass_i * c.mass_j / (c.mass_i + c.mass_j);
   const double damping = law.damping * 2 * std::sqrt(law.normal_stiffness * reduced);

@@ -1,14 +1,14 @@
 // The obvious disk solver: every pair and every image looked at in every step, plain doubles, no lists, no rows, no
-// batches. Written from Gilabert 2007 (Eqs. 1-10, A1-A3), PHYSICS.md sec. 1 and the schemes stated in dem/motion.hpp
-// and dem/barostat.hpp; shares no code with the solver. O(N^2) a step.
+// batches. Written from Gilabert 2007 (Eqs. 1-10, A1-A3), PHYSICS.md sec. 1 and the schemes stated in
+// dem/disks/motion.hpp and dem/solver/barostat.hpp; shares no code with the solver. O(N^2) a step.
 #pragma once
 #include <array>
 #include <cstdint>
 #include <map>
 #include <vector>
 
-#include "dem/barostat.hpp"
-#include "dem/state.hpp"
+#include "dem/solver/barostat.hpp"
+#include "dem/state/state.hpp"
 
 namespace isostat::oracle {
 

@@ -1,7 +1,7 @@
 // C(r) without a transform: the union of the disks and of the disks moved by r has the area (2 Phi - C(r)) A. The mean
 // over directions by the trapezoidal rule.
 #pragma once
-#include "tests/oracle/disk_packings.hpp"
+#include "tests/support/disk_packings.hpp"
 
 namespace isostat::oracle {
 

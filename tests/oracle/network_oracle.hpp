@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "dem/packing.hpp"
+#include "dem/state/packing.hpp"
 
 namespace isostat::oracle {
 

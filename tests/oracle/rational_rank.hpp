@@ -1,8 +1,8 @@
 // Rank of G over the rationals by plain elimination on exact fractions. Independent of analysis/rigidity: the rows are
 // written out here from Gilabert 2007, Eq. A2 with proportional lever arms, scaled by |r_ij|.
 #pragma once
-#include "analysis/report.hpp"
-#include "dem/packing.hpp"
+#include "analysis/input.hpp"
+#include "dem/state/packing.hpp"
 
 namespace isostat {
 

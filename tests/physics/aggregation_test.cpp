@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "analysis/finishing/newton_finishing.hpp"
-#include "dem/clusters.hpp"
-#include "dem/equilibrium.hpp"
-#include "dem/physical_hash.hpp"
-#include "dem/protocol.hpp"
-#include "dem/sample.hpp"
-#include "dem/scene_file.hpp"
-#include "dem/state_file.hpp"
+#include "dem/disks/sample.hpp"
+#include "dem/files/state_file.hpp"
+#include "dem/run/stages.hpp"
+#include "dem/scene/file.hpp"
+#include "dem/state/certificate.hpp"
+#include "dem/state/clusters.hpp"
+#include "dem/state/physical_hash.hpp"
 
 namespace isostat {
 namespace {

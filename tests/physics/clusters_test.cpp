@@ -5,11 +5,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "dem/equilibrium.hpp"
-#include "dem/lab/cluster.hpp"
-#include "dem/lab/few_bodies.hpp"
-#include "dem/lab/pair.hpp"
-#include "tests/oracle/disk_states.hpp"
+#include "dem/disks/lab/cluster.hpp"
+#include "dem/disks/lab/few_bodies.hpp"
+#include "dem/disks/lab/pair.hpp"
+#include "dem/state/certificate.hpp"
+#include "tests/support/disk_states.hpp"
 
 namespace isostat {
 namespace {

@@ -1,13 +1,13 @@
 // Invariants: momentum to rounding, angular momentum of an isolated cluster, the energy ledger.
-#include "dem/energy.hpp"
+#include "dem/state/energy.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "dem/lab/few_bodies.hpp"
-#include "dem/solver.hpp"
-#include "tests/oracle/disk_states.hpp"
+#include "dem/disks/lab/few_bodies.hpp"
+#include "dem/solver/solver.hpp"
+#include "tests/support/disk_states.hpp"
 
 namespace isostat {
 namespace {

@@ -7,11 +7,11 @@
 
 #include "analysis/rigidity/exact_rank.hpp"
 #include "analysis/stiffness/moduli.hpp"
-#include "dem/equilibrium.hpp"
-#include "dem/link.hpp"
-#include "dem/protocol.hpp"
-#include "dem/sample.hpp"
-#include "dem/solver.hpp"
+#include "dem/disks/sample.hpp"
+#include "dem/run/stages.hpp"
+#include "dem/solver/solver.hpp"
+#include "dem/state/certificate.hpp"
+#include "dem/state/link.hpp"
 
 namespace isostat {
 namespace {

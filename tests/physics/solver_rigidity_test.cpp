@@ -5,8 +5,8 @@
 #include <random>
 
 #include "analysis/rigidity/rigidity_matrix.hpp"
-#include "dem/sample.hpp"
-#include "dem/solver.hpp"
+#include "dem/disks/sample.hpp"
+#include "dem/solver/solver.hpp"
 
 namespace isostat {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "analysis/figure/figure_file.hpp"
 #include "dem/input_error.hpp"
-#include "tests/oracle/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace isostat {
 namespace {

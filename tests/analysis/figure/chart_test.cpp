@@ -11,7 +11,7 @@
 #include "analysis/figure/chart_range.hpp"
 #include "analysis/figure/curve_marks.hpp"
 #include "analysis/figure/nice_numbers.hpp"
-#include "tests/oracle/recording_canvas.hpp"
+#include "tests/support/recording_canvas.hpp"
 
 namespace isostat {
 namespace {

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <random>
 
-#include "dem/network_file.hpp"
+#include "dem/files/network_file.hpp"
 #include "tests/oracle/network_oracle.hpp"
-#include "tests/oracle/recording_canvas.hpp"
+#include "tests/support/recording_canvas.hpp"
 
 namespace isostat {
 namespace {

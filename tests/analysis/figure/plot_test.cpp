@@ -10,7 +10,7 @@
 
 #include "analysis/structure/fractal_fit.hpp"
 #include "dem/input_error.hpp"
-#include "tests/oracle/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace isostat {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "dem/sample.hpp"
+#include "dem/disks/sample.hpp"
 
 namespace isostat {
 namespace {

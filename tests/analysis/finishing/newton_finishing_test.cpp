@@ -7,14 +7,14 @@
 #include <tuple>
 
 #include "analysis/finishing/newton_finishing.hpp"
-#include "dem/energy.hpp"
-#include "dem/equilibrium.hpp"
+#include "dem/disks/sample.hpp"
+#include "dem/files/state_file.hpp"
 #include "dem/input_error.hpp"
-#include "dem/physical_hash.hpp"
-#include "dem/protocol.hpp"
-#include "dem/sample.hpp"
-#include "dem/state_file.hpp"
-#include "tests/oracle/disk_states.hpp"
+#include "dem/run/stages.hpp"
+#include "dem/state/certificate.hpp"
+#include "dem/state/energy.hpp"
+#include "dem/state/physical_hash.hpp"
+#include "tests/support/disk_states.hpp"
 
 namespace isostat {
 namespace {

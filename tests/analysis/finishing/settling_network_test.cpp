@@ -8,10 +8,10 @@
 #include "analysis/finishing/gmres.hpp"
 #include "analysis/finishing/repeated_cholesky.hpp"
 #include "analysis/finishing/settling_network.hpp"
-#include "dem/equilibrium.hpp"
-#include "dem/random.hpp"
-#include "dem/solver.hpp"
-#include "tests/oracle/disk_states.hpp"
+#include "dem/solver/random.hpp"
+#include "dem/solver/solver.hpp"
+#include "dem/state/certificate.hpp"
+#include "tests/support/disk_states.hpp"
 
 namespace isostat {
 namespace {

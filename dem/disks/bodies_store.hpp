@@ -1,0 +1,50 @@
+// The bodies as the kernels see them: rows, loads, constants (see kernel/row.hpp), in storage order, which follows the
+// cells of the neighbour grid. Beyond the last body lie pairs of far-apart rows that pad segments: one for each group
+// of a phase, because threads add to their loads at the same time.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "dem/disks/kernel/row.hpp"
+#include "dem/solver/aligned.hpp"
+#include "geometry/vec.hpp"
+
+namespace isostat {
+
+struct BodyConstants {
+  double inverse_mass, inverse_inertia;  // [1/m], [1/(m a^2)]
+  double radius;                         // [a]
+  double mass;                           // [m]
+};
+
+struct BodiesStore {
+  std::vector<std::int64_t> id;
+  AlignedVector<double> rows;   // kernel::kRowWidth a body: x, y, u, v, R w, w, p, q
+  AlignedVector<double> loads;  // kernel::kLoadWidth a body: Fx, Fy, A, B; moment = R A + B
+  AlignedVector<BodyConstants> constants;
+  std::vector<double> inertia;  // [m a^2] as given: 1/(1/I) is not always I, and restarts are exact
+
+  std::size_t size() const { return id.size(); }
+  void resize(std::size_t n) {
+    id.resize(n);
+    rows.assign((n + 2 * kPads) * kernel::kRowWidth, 0.0);
+    for (std::size_t k = 0; k < kPads; ++k) *row(pad(n, k) + 1) = kFar;
+    loads.assign((n + 2 * kPads) * kernel::kLoadWidth, 0.0);
+    constants.resize(n);
+    inertia.resize(n);
+  }
+  double* row(std::size_t k) { return rows.data() + k * kernel::kRowWidth; }
+  const double* row(std::size_t k) const { return rows.data() + k * kernel::kRowWidth; }
+  double* load(std::size_t k) { return loads.data() + k * kernel::kLoadWidth; }
+  const double* load(std::size_t k) const { return loads.data() + k * kernel::kLoadWidth; }
+  Vec2 position(std::size_t k) const { return {{row(k)[0], row(k)[1]}}; }
+
+  static constexpr std::size_t kPads = 64;
+  // The first body of the k-th padding pair of n bodies; the second follows it.
+  static constexpr std::size_t pad(std::size_t n, std::size_t k) { return n + 2 * k; }
+
+ private:
+  static constexpr double kFar = 1e6;  // [a] beyond any interaction; the distance of the padding pair
+};
+
+}  // namespace isostat

@@ -1,0 +1,51 @@
+// The supported contact laws: a visible list of compositions of the axes. To add one, add a line to `Supported`; to
+// add a law to an axis, write its type in dem/disks/law/ and give it a keyword in dem/disks/kernel/pair_force.cpp.
+#pragma once
+#include <array>
+
+#include "dem/disks/kernel/pair_force.hpp"
+#include "dem/disks/law/adhesion.hpp"
+#include "dem/disks/law/damping.hpp"
+#include "dem/disks/law/friction.hpp"
+#include "dem/disks/law/normal.hpp"
+
+namespace isostat::kernel {
+
+template <class A, class D, class F, class R>
+struct ContactLaw {
+  using Adhesion = A;
+  using Damping = D;
+  using Friction = F;
+  using Rolling = R;
+  static constexpr LawComposition composition{A::keyword, D::keyword, F::keyword, R::keyword};
+};
+
+template <class... Law>
+struct Catalogue {
+  static constexpr std::array<LawComposition, sizeof...(Law)> compositions{Law::composition...};
+};
+
+using namespace law;
+using Supported = Catalogue<                                                             //
+    ContactLaw<AdhesionNone, DampingCritical, FrictionNone, RollingNone>,                //
+    ContactLaw<AdhesionNone, DampingCritical, FrictionCoulomb, RollingNone>,             //
+    ContactLaw<AdhesionNone, DampingCritical, FrictionCoulomb, RollingElastoplastic>,    //
+    ContactLaw<AdhesionLinear, DampingCritical, FrictionNone, RollingNone>,              //
+    ContactLaw<AdhesionLinear, DampingCritical, FrictionCoulomb, RollingNone>,           //
+    ContactLaw<AdhesionLinear, DampingCritical, FrictionCoulomb, RollingElastoplastic>,  //
+    ContactLaw<AdhesionNone, DampingNone, FrictionNone, RollingNone>,                    //
+    ContactLaw<AdhesionNone, DampingNone, FrictionCoulomb, RollingNone>,                 //
+    ContactLaw<AdhesionNone, DampingNone, FrictionCoulomb, RollingElastoplastic>,        //
+    ContactLaw<AdhesionLinear, DampingNone, FrictionNone, RollingNone>,                  //
+    ContactLaw<AdhesionLinear, DampingNone, FrictionCoulomb, RollingNone>,               //
+    ContactLaw<AdhesionLinear, DampingNone, FrictionCoulomb, RollingElastoplastic>>;
+
+// By tally: nothing, stress, energy.
+using KernelSet = std::array<PairForceKernel, 3>;
+using KernelTable = std::array<KernelSet, Supported::compositions.size()>;
+
+const KernelTable& scalar_kernels();
+const KernelTable& avx2_kernels();
+const KernelTable& avx512_kernels();
+
+}  // namespace isostat::kernel

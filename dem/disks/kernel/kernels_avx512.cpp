@@ -1,0 +1,10 @@
+#include "dem/disks/kernel/pair_force_impl.hpp"
+
+namespace isostat::kernel {
+
+const KernelTable& avx512_kernels() {
+  static constexpr KernelTable table = kernel_table<Twin<Native>>(Supported{});
+  return table;
+}
+
+}  // namespace isostat::kernel

@@ -1,0 +1,159 @@
+#include "dem/disks/sample.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "dem/disks/scales.hpp"
+#include "dem/files/packing_file.hpp"
+#include "dem/input_error.hpp"
+#include "dem/scene/text.hpp"
+#include "dem/solver/random.hpp"
+#include "dem/state/touching.hpp"
+
+namespace isostat {
+namespace {
+
+// Random sequential placement, largest first, with a grid of cells of the largest diameter.
+class Placement {
+ public:
+  Placement(const PeriodicCell<2>& cell, double largest_diameter, double gap) : cell_(cell), gap_(gap) {
+    for (int k = 0; k < 2; ++k) n_[k] = std::max(1, static_cast<int>(cell.length[k] / (largest_diameter + gap)));
+    members_.resize(static_cast<std::size_t>(n_[0]) * static_cast<std::size_t>(n_[1]));
+  }
+  bool free(const Vec2& r, double radius, const Bodies<2>& bodies) const {
+    const int cx = column(r, 0), cy = column(r, 1);
+    for (int oy = -1; oy <= 1; ++oy)
+      for (int ox = -1; ox <= 1; ++ox)
+        for (std::size_t k : members_[index((cx + ox + n_[0]) % n_[0], (cy + oy + n_[1]) % n_[1])]) {
+          Vec2 d = bodies.position[k] - r;
+          d += cell_.offset(cell_.nearest_image(d));
+          if (norm(d) < radius + bodies.radius[k] + gap_) return false;
+        }
+    return true;
+  }
+  void add(const Vec2& r, std::size_t k) { members_[index(column(r, 0), column(r, 1))].push_back(k); }
+
+ private:
+  int column(const Vec2& r, int k) const {
+    return std::min(n_[k] - 1, static_cast<int>(r[k] / cell_.length[k] * n_[k]));
+  }
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(n_[0]) + static_cast<std::size_t>(x);
+  }
+  PeriodicCell<2> cell_;
+  double gap_;
+  int n_[2];
+  std::vector<std::vector<std::size_t>> members_;
+};
+
+constexpr int kMostTries = 20000;  // per disk
+
+}  // namespace
+
+void set_disk_inertia(Bodies<2>& b) {
+  for (std::size_t k = 0; k < b.size(); ++k) {
+    const double d = 2 * b.radius[k];
+    b.mass[k] = d * d;
+    b.inertia[k] = b.mass[k] * d * d / 8;
+  }
+}
+
+double time_step(const Scene& scene, double normal_stiffness, const Bodies<2>& bodies) {
+  const double heaviest = *std::max_element(bodies.mass.begin(), bodies.mass.end());
+  return scene.step.fraction * std::sqrt(heaviest / normal_stiffness);
+}
+
+namespace {
+
+constexpr double kMostOverlapAtStart = 0.1;  // [R_i + R_j] beyond, stored energy makes the first steps an explosion
+
+State without_bodies(const Scene& scene, std::uint64_t seed) {
+  State state;
+  state.scene = scene;
+  state.seed = seed;
+  state.law = resolve(scene.law);
+  return state;
+}
+
+// grains.file: bodies, cell and spring histories of a packing under the scene's law, at time 0.
+State state_from_file(const Scene& scene, std::uint64_t seed) {
+  const std::string& path = scene.grains.file;
+  PackingFile file = read_packing(path);
+  if (file.packing_3d) throw InputError(path, 0, "grains.file", path, "a packing of disks is wanted; this one is 3D");
+  if (!file.packing.cell) throw InputError(path, 0, "grains.file", path, "a packing with a periodic cell is wanted");
+  if (file.packing.bodies.size() == 0) throw InputError(path, 0, "grains.file", path, "it holds no grain");
+  State state = without_bodies(scene, seed);
+  state.packing = std::move(file.packing);
+  set_disk_inertia(state.packing.bodies);
+  if (!file.links_given) state.packing.links.clear();
+  const Bodies<2>& b = state.packing.bodies;
+  for (const Link<2>& l : touching_links(state.packing, 0.0)) {
+    const auto i = static_cast<std::size_t>(l.i), j = static_cast<std::size_t>(l.j);
+    const Vec2 r = b.position[j] + state.packing.cell->offset(l.shift) - b.position[i];
+    const double sum = b.radius[i] + b.radius[j];
+    if (norm(r) < (1 - kMostOverlapAtStart) * sum)
+      throw InputError(path, 0, "grains.file", path,
+                       "grains " + std::to_string(b.id[i]) + " and " + std::to_string(b.id[j]) + " overlap by " +
+                           std::to_string(sum - norm(r)) + " a; at most a tenth of the sum of radii is allowed");
+  }
+  state.time_step = time_step(scene, state.law.normal_stiffness, b);
+  const double smallest = 2 * *std::min_element(b.radius.begin(), b.radius.end());
+  const double bound = scene.step.fraction * critical_time_step(state.law, smallest) / state.time_step;
+  if (!(scene.step.fraction < bound))
+    throw InputError(path, 0, "step.fraction", real_text(scene.step.fraction),
+                     "unstable for the smallest grain of this file, diameter " + real_text(smallest) + " a; below " +
+                         real_text(bound));
+  state.cell_motion.reference_length = state.packing.cell->length;
+  return state;
+}
+
+}  // namespace
+
+State initial_state(const Scene& scene, std::uint64_t seed) {
+  const GrainsScene& g = scene.grains;
+  if (!g.file.empty()) return state_from_file(scene, seed);
+  State state = without_bodies(scene, seed);
+  Random random(seed);
+
+  const auto n = static_cast<std::size_t>(g.count);
+  std::vector<double> diameters(n);
+  double area = 0;
+  for (double& d : diameters) {
+    d = g.diameter_min + (g.diameter_max - g.diameter_min) * random.uniform();
+    area += std::numbers::pi / 4 * d * d;
+  }
+  const double cell_area = area / g.solid_fraction, width = std::sqrt(cell_area * scene.cell.aspect);
+  state.packing.cell = PeriodicCell<2>{{{width, cell_area / width}}};
+  const PeriodicCell<2>& cell = *state.packing.cell;
+
+  Bodies<2>& b = state.packing.bodies;
+  b.resize(n);
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t p, std::size_t q) { return diameters[p] > diameters[q]; });
+  Placement placement(cell, diameters[order[0]], state.law.attraction_range);
+  for (std::size_t k : order) {
+    b.id[k] = static_cast<std::int64_t>(k);
+    b.radius[k] = diameters[k] / 2;
+    int tries = 0;
+    Vec2 r;
+    do {
+      if (++tries > kMostTries)
+        throw InputError("scene", 0, "grains.solid_fraction", std::to_string(g.solid_fraction),
+                         "random placement without overlap found no room; lower it (0.5 is safe)");
+      r = {{random.uniform() * cell.length[0], random.uniform() * cell.length[1]}};
+    } while (!placement.free(r, b.radius[k], b));
+    b.position[k] = r;
+    placement.add(r, k);
+  }
+  set_disk_inertia(b);
+  state.time_step = time_step(scene, state.law.normal_stiffness, b);
+  state.random_counter = random.counter();
+  state.cell_motion.reference_length = cell.length;
+  return state;
+}
+
+}  // namespace isostat

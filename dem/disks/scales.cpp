@@ -1,0 +1,55 @@
+#include "dem/disks/scales.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace isostat {
+
+double time_step(const LawParameters& law, double fraction, double diameter_max) {
+  return fraction * diameter_max / std::sqrt(law.normal_stiffness);
+}
+
+double critical_time_step(const LawParameters& law, double diameter_min) {
+  const double mass = diameter_min * diameter_min;
+  const double translation = 6 * (law.normal_stiffness + law.tangential_stiffness) / mass;
+  const double rotation = (24 * law.tangential_stiffness + 96 * law.rolling_stiffness / mass) / mass;
+  return 2 / std::sqrt(std::max(translation, rotation));
+}
+
+Scales scales(const LawParameters& law, std::optional<double> pressure, double diameter_min, double time_step) {
+  Scales s;
+  s.force = std::max(law.attraction, std::abs(pressure.value_or(0)));
+  if (s.force > 0) {
+    s.kappa = law.normal_stiffness / s.force;
+    s.time = 1 / std::sqrt(law.attraction > 0 ? law.attraction : s.force);
+  }
+  if (pressure) s.reduced_pressure = law.attraction > 0 ? *pressure / law.attraction : *pressure;
+  if (law.attraction > 0) {
+    s.overlap_over_range = law.attraction / (law.normal_stiffness * law.attraction_range);
+    s.velocity = std::sqrt(law.attraction * law.attraction_range);
+  }
+  const double zeta = law.damping;
+  s.restitution = zeta < 1 ? std::exp(-std::numbers::pi * zeta / std::sqrt(1 - zeta * zeta)) : 0.0;
+  s.time_step = time_step;
+  s.critical_time_step = critical_time_step(law, diameter_min);
+  return s;
+}
+
+Scales scales(const State& state) {
+  const auto& radius = state.packing.bodies.radius;
+  if (radius.empty()) return scales(state.law, largest_stress(state.imposed_stress), 1, state.time_step);
+  const double smallest = *std::min_element(radius.begin(), radius.end());
+  return scales(state.law, largest_stress(state.imposed_stress), 2 * smallest, state.time_step);
+}
+
+SiScales si_scales(const UnitsScene& units) {
+  SiScales si{};
+  si.length = units.length;
+  si.mass = units.density * std::numbers::pi * units.length * units.length / 4;
+  si.force = units.force;
+  si.time = std::sqrt(si.mass * si.length / si.force);
+  return si;
+}
+
+}  // namespace isostat

@@ -1,0 +1,48 @@
+// The dimensionless numbers of a run (Gilabert 2007, Sec. II.C and Table I), and the critical time step.
+#pragma once
+#include <optional>
+
+#include "dem/scene/scene.hpp"
+#include "dem/state/state.hpp"
+
+namespace isostat {
+
+struct Scales {
+  double force = 0;                          // F1 = max(F0, a P) [F0]; 0 if neither acts
+  std::optional<double> kappa;               // a K_N / F1; none without force scale
+  std::optional<double> reduced_pressure;    // P* = a P / F0; without cohesion P in the scene's unit; none: fixed cell
+  std::optional<double> overlap_over_range;  // h0 / D0 = F0 / (K_N D0); none without cohesion
+  double restitution = 1;                    // e_N = exp(-pi zeta / sqrt(1 - zeta^2)) of two free disks
+  std::optional<double> velocity;            // V* = sqrt(F0 D0 / m) [a/T0]; none without cohesion
+  std::optional<double> time;     // T0 = sqrt(m a / F0), without cohesion sqrt(m / P) [T0 of the scene's unit]
+  double time_step = 0;           // dt [T0]
+  double critical_time_step = 0;  // 2 / omega_max of critical_time_step() [T0]
+};
+
+// diameter_min: of the smallest grain [a]; the mass of a disk is d^2 [m].
+Scales scales(const LawParameters& law, std::optional<double> pressure, double diameter_min, double time_step);
+Scales scales(const State& state);
+
+// dt = fraction * sqrt(m_max / K_N) [T0].
+double time_step(const LawParameters& law, double fraction, double diameter_max);
+
+// Largest stable step of the undamped central-difference scheme, dt < 2 / omega_max [T0], with omega_max bounded for
+// the smallest grain (mass m = d^2, inertia m d^2 / 8) among neighbours as small, at most six of them in the plane: the
+// sum of contact stiffnesses per grain counts twice because the neighbour may move in antiphase.
+//   translation  omega^2 = 2 * 6/2 (K_N + K_T) / m  (averaged over directions n n + t t = 1)
+//   rotation     omega^2 = 2 * 6 (K_T d^2/4 + K_r) / I = 24 K_T / m + 96 K_r / (m d^2)
+// The rotational value is reached, for K_r = 0, by equal disks on a triangular lattice all spinning alike.
+double critical_time_step(const LawParameters& law, double diameter_min);
+
+// SI values of the units of a scene, and of what is derived from them.
+struct SiScales {
+  double length;                                      // a [m]
+  double mass;                                        // m = density pi a^2 / 4 [kg]
+  double force;                                       // F0 [N]
+  double time;                                        // sqrt(m a / F0) [s]
+  double velocity() const { return length / time; }   // a / unit of time [m/s]
+  double pressure() const { return force / length; }  // stress in the plane and stiffness [N/m]
+};
+SiScales si_scales(const UnitsScene& units);
+
+}  // namespace isostat

@@ -1,0 +1,130 @@
+#include "dem/files/formats/vtp.hpp"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace isostat {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "raw appended data is written as little endian");
+
+Vec3 spatial(double spin) { return {{0, 0, spin}}; }
+Vec3 spatial(const Vec2& v) { return {{v[0], v[1], 0}}; }
+Vec3 spatial(const Vec3& v) { return v; }
+double squared(double t) { return t * t; }
+double squared(const Vec3& t) { return dot(t, t); }
+
+// Header lines in the order of the arrays, and the appended block they point into.
+class Appended {
+ public:
+  template <class Number>
+  std::string array(const std::string& name, const std::vector<Number>& values, int components = 1) {
+    const char* type = std::is_same_v<Number, double>         ? "Float64"
+                       : std::is_same_v<Number, std::int64_t> ? "Int64"
+                                                              : "Int8";
+    std::string header = "<DataArray type=\"" + std::string(type) + "\" Name=\"" + name + "\" NumberOfComponents=\"" +
+                         std::to_string(components) + "\" format=\"appended\" offset=\"" +
+                         std::to_string(block_.size()) + "\"/>\n";
+    const std::uint64_t bytes = values.size() * sizeof(Number);
+    const std::size_t at = block_.size();
+    block_.resize(at + sizeof bytes + bytes);
+    std::memcpy(block_.data() + at, &bytes, sizeof bytes);
+    if (bytes > 0) std::memcpy(block_.data() + at + sizeof bytes, values.data(), bytes);
+    return header;
+  }
+  const std::string& block() const { return block_; }
+
+ private:
+  std::string block_;
+};
+
+void push(std::vector<double>& a, const Vec3& v) { a.insert(a.end(), v.c.begin(), v.c.end()); }
+void push_value(std::vector<double>& a, double v) { a.push_back(v); }
+void push_value(std::vector<double>& a, const Vec3& v) { push(a, v); }
+
+template <int D>
+struct Points {
+  std::vector<double> position, radius, mass, velocity, spin;
+  std::vector<std::int64_t> id;
+  std::vector<std::int8_t> image;
+  void add(const Bodies<D>& b, std::size_t k, const Vec<D>& place, bool is_image) {
+    push(position, spatial(place)), push(velocity, spatial(b.velocity[k])), push(spin, spatial(b.spin[k]));
+    radius.push_back(b.radius[k]), mass.push_back(b.mass[k]), id.push_back(b.id[k]);
+    image.push_back(is_image);
+  }
+};
+
+template <int D>
+struct Cells {
+  std::vector<std::int8_t> kind;
+  std::vector<double> gap, normal, tangential, moment, total;
+  void add(std::int8_t code, const Link<D>& l) {
+    kind.push_back(code);
+    gap.push_back(l.gap), normal.push_back(l.normal_force);
+    push_value(tangential, l.tangential_force), push_value(moment, l.moment);
+    total.push_back(std::sqrt(l.normal_force * l.normal_force + squared(l.tangential_force)));
+  }
+};
+
+}  // namespace
+
+template <int D>
+std::string vtk_polydata(const Packing<D>& packing, double time) {
+  const Bodies<D>& b = packing.bodies;
+  Points<D> points;
+  Cells<D> cells;
+  std::vector<Vec<D>> place(b.size());
+  std::vector<std::int64_t> vertices, vertex_ends, lines, line_ends;
+  for (std::size_t k = 0; k < b.size(); ++k) {
+    place[k] = packing.cell ? packing.cell->wrap(b.position[k]) : b.position[k];
+    points.add(b, k, place[k], false);
+    cells.add(-1, Link<D>{});
+    vertices.push_back(static_cast<std::int64_t>(k));
+    vertex_ends.push_back(static_cast<std::int64_t>(k) + 1);
+  }
+  for (const Link<D>& l : packing.links) {
+    const auto i = static_cast<std::size_t>(l.i), j = static_cast<std::size_t>(l.j);
+    Vec<D> end = b.position[j] - b.position[i];
+    if (packing.cell) end += packing.cell->offset(l.shift);
+    end += place[i];
+    // Wrapping i and j apart may differ from the branch vector by whole cells, or by rounding alone.
+    bool inside = true;
+    for (int k = 0; k < D; ++k)
+      inside = inside && (!packing.cell || std::abs(end[k] - place[j][k]) < 0.5 * packing.cell->length[k]);
+    lines.push_back(static_cast<std::int64_t>(i));
+    lines.push_back(static_cast<std::int64_t>(inside ? j : points.id.size()));
+    line_ends.push_back(static_cast<std::int64_t>(lines.size()));
+    if (!inside) points.add(b, j, end, true);
+    cells.add(static_cast<std::int8_t>(l.kind), l);
+  }
+
+  Appended data;
+  const std::string counts = "<Piece NumberOfPoints=\"" + std::to_string(points.id.size()) + "\" NumberOfVerts=\"" +
+                             std::to_string(b.size()) + "\" NumberOfLines=\"" + std::to_string(packing.links.size()) +
+                             "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n";
+  constexpr int vector_size = D == 2 ? 1 : 3;
+  std::string xml =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+      "header_type=\"UInt64\">\n<PolyData>\n<FieldData>\n";
+  std::string field = data.array("TimeValue", std::vector<double>{time});
+  field.insert(field.find(" format="), " NumberOfTuples=\"1\"");
+  xml += field + "</FieldData>\n" + counts + "<PointData Scalars=\"radius\" Vectors=\"velocity\">\n" +
+         data.array("id", points.id) + data.array("radius", points.radius) + data.array("mass", points.mass) +
+         data.array("velocity", points.velocity, 3) + data.array("spin", points.spin, 3) +
+         data.array("image", points.image) + "</PointData>\n<CellData Scalars=\"N\">\n" +
+         data.array("kind", cells.kind) + data.array("gap", cells.gap) + data.array("N", cells.normal) +
+         data.array("T", cells.tangential, vector_size) + data.array("M", cells.moment, vector_size) +
+         data.array("F", cells.total) + "</CellData>\n<Points>\n" + data.array("Points", points.position, 3) +
+         "</Points>\n<Verts>\n" + data.array("connectivity", vertices) + data.array("offsets", vertex_ends) +
+         "</Verts>\n<Lines>\n" + data.array("connectivity", lines) + data.array("offsets", line_ends) +
+         "</Lines>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
+  return xml + data.block() + "\n</AppendedData>\n</VTKFile>\n";
+}
+
+template std::string vtk_polydata(const Packing<2>&, double);
+template std::string vtk_polydata(const Packing<3>&, double);
+
+}  // namespace isostat

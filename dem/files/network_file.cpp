@@ -1,0 +1,342 @@
+#include "dem/files/network_file.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <unordered_map>
+
+#include "dem/files/atomic_file.hpp"
+#include "dem/input_error.hpp"
+#include "dem/state/touching.hpp"
+
+namespace isostat {
+namespace {
+
+using Fields = std::vector<std::string_view>;
+
+// Fields of a line, comment removed.
+void split(std::string_view line, Fields& fields) {
+  fields.clear();
+  line = line.substr(0, line.find('#'));
+  constexpr std::string_view space = " \t\r\v\f";
+  for (std::size_t at = line.find_first_not_of(space); at != std::string_view::npos;) {
+    const std::size_t end = std::min(line.find_first_of(space, at), line.size());
+    fields.push_back(line.substr(at, end - at));
+    at = line.find_first_not_of(space, end);
+  }
+}
+
+template <class Number>
+std::optional<Number> number(std::string_view text) {
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  if constexpr (std::is_floating_point_v<Number>) {
+    if (!std::isfinite(value)) return std::nullopt;
+  }
+  return value;
+}
+
+std::string read_text(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::error_code ignored;
+  if (!file || std::filesystem::is_directory(path, ignored))
+    throw InputError(path, 0, "", "", "cannot be read; give an existing file");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return std::move(text).str();
+}
+
+template <int D>
+class NetworkParser {
+ public:
+  explicit NetworkParser(const std::string& path) : path_(path) {}
+
+  NetworkFile<D> parse(std::string_view text, std::optional<double> gap_tolerance) {
+    Fields f;
+    int line = 0;
+    for (std::size_t at = 0; at < text.size();) {
+      const std::size_t end = std::min(text.find('\n', at), text.size());
+      split(text.substr(at, end - at), f);
+      ++line;
+      at = end + 1;
+      if (f.empty()) continue;
+      if (f[0] == "cell")
+        cell(line, f);
+      else if (f[0] == "grain")
+        grain(line, f);
+      else if (f[0] == "contact")
+        contacts_.push_back({line, {f.begin(), f.end()}});
+      else
+        fault(line, "", f[0], "a line starts with cell, grain or contact");
+    }
+    check_placement();
+    for (const auto& [at, fields] : contacts_) contact(at, fields);
+    if (file_.packing.bodies.size() == 0 && faults_.empty()) fault(0, "grain", "", "the file has no grain line");
+    if (contacts_.empty() && faults_.empty() && !cell_fits(file_.packing))
+      fault(cell_line_, "cell", "", "an edge is below 0.1 of the largest radius: check the units");
+    if (!faults_.empty()) throw InputError(std::move(faults_));
+
+    set_masses();
+    file_.links_given = !contacts_.empty();
+    if (!file_.links_given)
+      file_.packing.links =
+          touching_links(file_.packing, gap_tolerance.value_or(default_gap_tolerance(file_.packing.bodies)));
+    return std::move(file_);
+  }
+
+ private:
+  void fault(int line, std::string key, std::string_view value, std::string rule) {
+    if (faults_.size() < kMaxFaults)
+      faults_.push_back({path_, line, std::move(key), std::string(value), std::move(rule)});
+    else if (faults_.size() == kMaxFaults)
+      faults_.push_back({path_, line, "", "", "more faults from here on are not listed"});
+  }
+
+  std::optional<double> real(int line, const std::string& key, std::string_view text, bool positive) {
+    const auto value = number<double>(text);
+    if (value && (!positive || *value > 0)) return value;
+    fault(line, key, text, positive ? "must be a positive finite number" : "must be a finite number");
+    return std::nullopt;
+  }
+
+  void cell(int line, const Fields& f) {
+    if (f.size() != D + 1)
+      return fault(line, "cell", std::to_string(f.size() - 1) + " numbers", D == 2 ? "cell L1 L2" : "cell L1 L2 L3");
+    if (cell_line_ > 0)
+      return fault(line, "cell", "", "given before in line " + std::to_string(cell_line_) + "; keep one");
+    cell_line_ = line;
+    PeriodicCell<D> c;
+    bool good = true;
+    for (int k = 0; k < D; ++k) {
+      const auto v = real(line, "cell.L" + std::to_string(k + 1), f[static_cast<std::size_t>(k) + 1], true);
+      good = good && v;
+      c.length[k] = v.value_or(1);
+    }
+    has_cell_ = true;
+    if (good) file_.packing.cell = c;
+  }
+
+  void grain(int line, const Fields& f) {
+    if (f.size() != D + 3)
+      return fault(line, "grain", std::to_string(f.size() - 1) + " fields",
+                   D == 2 ? "grain ID X Y R" : "grain ID X Y Z R");
+    const auto id = number<std::int64_t>(f[1]);
+    if (!id) fault(line, "grain.ID", f[1], "must be an integer");
+    Vec<D> r;
+    bool good = id.has_value();
+    for (int k = 0; k < D; ++k) {
+      const auto v = real(line, std::string("grain.") + "XYZ"[k], f[static_cast<std::size_t>(k) + 2], false);
+      good = good && v;
+      r[k] = v.value_or(0);
+    }
+    const auto radius = real(line, "grain.R", f[D + 2], true);
+    if (id) {
+      const auto [seen, fresh] = index_.try_emplace(*id, static_cast<std::int32_t>(file_.packing.bodies.size()));
+      if (!fresh) {
+        fault(line, "grain.ID", f[1],
+              "used before in line " + std::to_string(line_of_grain_[static_cast<std::size_t>(seen->second)]) +
+                  "; IDs are distinct");
+        return;
+      }
+    }
+    // A faulty grain keeps its index so that contacts to it are not reported as unknown; the file is refused anyway.
+    if (!id) return;
+    Bodies<D>& b = file_.packing.bodies;
+    b.id.push_back(*id);
+    b.position.push_back(r);
+    b.radius.push_back(good && radius ? *radius : 1.0);
+    line_of_grain_.push_back(line);
+  }
+
+  // Image numbers must fit an int with room for sums.
+  void check_placement() {
+    if (!file_.packing.cell) return;
+    for (std::size_t i = 0; i < file_.packing.bodies.size(); ++i)
+      for (int k = 0; k < D; ++k) {
+        const double images = std::abs(file_.packing.bodies.position[i][k]) / file_.packing.cell->length[k];
+        if (images > 1e8)
+          fault(line_of_grain_[i], std::string("grain.") + "XYZ"[k], "", "lies more than 1e8 cells away from the cell");
+      }
+  }
+
+  void contact(int line, const Fields& f) {
+    if (f.size() != 4 && f.size() != D + 4)
+      return fault(line, "contact", std::to_string(f.size() - 1) + " fields",
+                   D == 2 ? "contact I J TYPE [S1 S2]" : "contact I J TYPE [S1 S2 S3]");
+    const auto i = end_of_contact(line, "contact.I", f[1]), j = end_of_contact(line, "contact.J", f[2]);
+    const auto kind = link_kind_from_letters(f[3]);
+    if (!kind) fault(line, "contact.TYPE", f[3], "one of c, s, r, sr, d");
+    ImageShift<D> shift{};
+    bool good = i && j && kind;
+    if (f.size() > 4) {
+      for (std::size_t k = 0; k < D; ++k) {
+        const std::string key = "contact.S" + std::to_string(k + 1);
+        const auto s = number<int>(f[4 + k]);
+        if (!s || std::abs(static_cast<double>(*s)) > 1e8) {
+          fault(line, key, f[4 + k], "must be an integer of at most 1e8");
+          good = false;
+        } else if (*s != 0 && !has_cell_) {
+          fault(line, key, f[4 + k], "an image shift needs a cell line");
+          good = false;
+        } else {
+          shift[k] = *s;
+        }
+      }
+    }
+    if (!good || (has_cell_ && !file_.packing.cell)) return;
+    add_link(line, *i, *j, *kind, shift, f.size() > 4);
+  }
+
+  std::optional<std::int32_t> end_of_contact(int line, const std::string& key, std::string_view text) {
+    const auto id = number<std::int64_t>(text);
+    if (!id) {
+      fault(line, key, text, "must be an integer");
+      return std::nullopt;
+    }
+    const auto found = index_.find(*id);
+    if (found != index_.end()) return found->second;
+    fault(line, key, text, "no grain line has this ID");
+    return std::nullopt;
+  }
+
+  void add_link(int line, std::int32_t i, std::int32_t j, LinkKind kind, ImageShift<D> shift, bool shift_given) {
+    const Bodies<D>& b = file_.packing.bodies;
+    const auto ui = static_cast<std::size_t>(i), uj = static_cast<std::size_t>(j);
+    Vec<D> branch = b.position[uj] - b.position[ui];
+    if (file_.packing.cell) {
+      if (!shift_given) shift = file_.packing.cell->nearest_image(branch);
+      branch += file_.packing.cell->offset(shift);
+    }
+    const std::string pair = std::to_string(b.id[ui]) + " " + std::to_string(b.id[uj]);
+    if (i == j && shift == ImageShift<D>{})
+      return fault(line, "contact", pair, "a grain cannot touch itself except through an image (S1 S2)");
+    const double distance = norm(branch);
+    if (!(distance > 0) || !std::isfinite(distance))
+      return fault(line, "contact", pair, "the two centres coincide (or are out of range): no normal direction");
+
+    ImageShift<D> back;
+    for (std::size_t k = 0; k < D; ++k) back[k] = -shift[k];
+    const bool forward = i != j ? i < j : shift > back;
+    const auto key = forward ? Key{i, j, shift} : Key{j, i, back};
+    const auto [seen, fresh] = lines_.try_emplace(key, line, kind);
+    if (!fresh)
+      return fault(line, "contact", pair,
+                   (seen->second.second == kind ? "repeats" : "contradicts") + std::string(" line ") +
+                       std::to_string(seen->second.first) + ": one line for each pair and image");
+    Link<D> link;
+    link.i = i, link.j = j, link.shift = shift, link.kind = kind;
+    link.gap = distance - b.radius[ui] - b.radius[uj];
+    file_.packing.links.push_back(link);
+  }
+
+  // Equal densities, mass 1 for the largest: disks m ~ R^2, I = m R^2 / 2; spheres m ~ R^3, I = 2 m R^2 / 5.
+  void set_masses() {
+    Bodies<D>& b = file_.packing.bodies;
+    b.resize(b.size());
+    const double largest = *std::max_element(b.radius.begin(), b.radius.end());
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      b.mass[i] = std::pow(b.radius[i] / largest, D);
+      b.inertia[i] = (D == 2 ? 0.5 : 0.4) * b.mass[i] * b.radius[i] * b.radius[i];
+    }
+  }
+
+  struct Key {
+    std::int32_t i, j;
+    ImageShift<D> shift;
+    bool operator==(const Key&) const = default;
+  };
+  struct KeyHash {
+    std::size_t operator()(const Key& k) const {
+      std::uint64_t h = static_cast<std::uint32_t>(k.i);
+      const auto mix = [&h](std::uint64_t x) { h = (h ^ x) * 0x9E3779B97F4A7C15ull, h ^= h >> 29; };
+      mix(static_cast<std::uint32_t>(k.j));
+      for (int s : k.shift) mix(static_cast<std::uint32_t>(s));
+      return h;
+    }
+  };
+
+  std::string path_;
+  NetworkFile<D> file_;
+  std::vector<Fault> faults_;
+  int cell_line_ = 0;
+  bool has_cell_ = false;
+  std::unordered_map<std::int64_t, std::int32_t> index_;  // of an ID
+  std::vector<int> line_of_grain_;
+  std::vector<std::pair<int, Fields>> contacts_;  // lines of contacts, resolved once every grain is known
+  std::unordered_map<Key, std::pair<int, LinkKind>, KeyHash> lines_;
+};
+
+}  // namespace
+
+template <int D>
+NetworkFile<D> parse_network(std::string_view text, const std::string& path, std::optional<double> gap_tolerance) {
+  return NetworkParser<D>(path).parse(text, gap_tolerance);
+}
+
+template <int D>
+NetworkFile<D> read_network(const std::string& path, std::optional<double> gap_tolerance) {
+  return parse_network<D>(read_text(path), path, gap_tolerance);
+}
+
+int network_dimension(const std::string& path) {
+  const std::string text = read_text(path);
+  Fields f;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    split(std::string_view(text).substr(at, end - at), f);
+    if (!f.empty() && f[0] == "grain") return f.size() == 6 ? 3 : 2;
+    at = end + 1;
+  }
+  return 2;
+}
+
+template <int D>
+std::string network_text(const Packing<D>& packing) {
+  std::string text;
+  char buffer[64];
+  const auto real = [&](double v) {
+    text.append(buffer, static_cast<std::size_t>(std::snprintf(buffer, sizeof buffer, " %.17g", v)));
+  };
+  if (packing.cell) {
+    text += "cell";
+    for (int k = 0; k < D; ++k) real(packing.cell->length[k]);
+    text += '\n';
+  }
+  const Bodies<D>& b = packing.bodies;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    text += "grain " + std::to_string(b.id[i]);
+    for (int k = 0; k < D; ++k) real(b.position[i][k]);
+    real(b.radius[i]);
+    text += '\n';
+  }
+  for (const Link<D>& link : packing.links) {
+    text += "contact " + std::to_string(b.id[static_cast<std::size_t>(link.i)]) + ' ' +
+            std::to_string(b.id[static_cast<std::size_t>(link.j)]) + ' ' + std::string(letters(link.kind));
+    if (packing.cell)
+      for (int s : link.shift) text += ' ' + std::to_string(s);
+    text += '\n';
+  }
+  return text;
+}
+
+template <int D>
+void write_network(const std::string& path, const Packing<D>& packing) {
+  write_file_atomically(path, network_text(packing));
+}
+
+template NetworkFile<2> parse_network(std::string_view, const std::string&, std::optional<double>);
+template NetworkFile<3> parse_network(std::string_view, const std::string&, std::optional<double>);
+template NetworkFile<2> read_network(const std::string&, std::optional<double>);
+template NetworkFile<3> read_network(const std::string&, std::optional<double>);
+template std::string network_text(const Packing<2>&);
+template std::string network_text(const Packing<3>&);
+template void write_network(const std::string&, const Packing<2>&);
+template void write_network(const std::string&, const Packing<3>&);
+
+}  // namespace isostat

@@ -1,0 +1,224 @@
+#include "dem/files/packing_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "dem/files/formats/csv.hpp"
+#include "dem/files/formats/dump.hpp"
+#include "dem/files/formats/text_table.hpp"
+#include "dem/files/network_file.hpp"
+#include "dem/files/state_file.hpp"
+#include "dem/input_error.hpp"
+#include "dem/state/state_check.hpp"
+#include "dem/state/touching.hpp"
+
+namespace isostat {
+namespace {
+
+// What could not be kept as a state: squares of lengths that overflow or vanish, say.
+template <int D>
+void set_packing(PackingFile& file, Packing<D> packing, const std::string& path) {
+  if (const auto fault = packing_fault(packing))
+    throw InputError(path, 0, fault->field, "", fault->rule + "; check the units");
+  if constexpr (D == 2)
+    file.packing = std::move(packing);
+  else
+    file.packing_3d = std::move(packing);
+}
+
+template <int D>
+PeriodicCell<D> cell_of(const std::vector<double>& edges) {
+  PeriodicCell<D> cell;
+  for (std::size_t k = 0; k < D; ++k) cell.length[static_cast<int>(k)] = edges[k];
+  return cell;
+}
+
+// Gives the packing the cell of --box, unless it has its own.
+template <int D>
+void set_box(Packing<D>& packing, const std::string& path, const PackingReading& reading) {
+  if (!reading.box) return;
+  std::string given;
+  for (const double edge : *reading.box) given += (given.empty() ? "" : ",") + std::to_string(edge);
+  if (packing.cell) throw InputError(path, 0, "--box", given, "the file has its own cell; leave --box out");
+  if (reading.box->size() != D)
+    throw InputError(path, 0, "--box", given, "needs " + std::to_string(D) + " edges for this file");
+  packing.cell = cell_of<D>(*reading.box);
+}
+
+// A cell that cannot be meant: grains far outside it, or far larger than it.
+template <int D>
+void check_cell(const Packing<D>& packing, const std::string& path) {
+  if (!packing.cell) return;
+  for (int k = 0; k < D; ++k)
+    if (!(packing.cell->length[k] > 0) || !std::isfinite(packing.cell->length[k]))
+      throw InputError(path, 0, "cell", std::to_string(packing.cell->length[k]), "an edge must be positive and finite");
+  constexpr double kMostImages = 1e8;  // shifts stay exact integers
+  for (std::size_t i = 0; i < packing.bodies.size(); ++i)
+    for (int k = 0; k < D; ++k)
+      if (!(std::abs(packing.bodies.position[i][k]) <= kMostImages * packing.cell->length[k]))
+        throw InputError(path, 0, "grain", std::to_string(packing.bodies.id[i]),
+                         "lies more than 1e8 cells away from the cell");
+  if (!cell_fits(packing))
+    throw InputError(path, 0, "cell", "", "an edge is below 0.1 of the largest radius: check the units");
+}
+
+template <int D>
+void find_touching(Packing<D>& packing, const PackingReading& reading) {
+  packing.links = touching_links(packing, reading.gap_tolerance.value_or(default_gap_tolerance(packing.bodies)));
+}
+
+template <int D>
+void read_network_into(PackingFile& file, const std::string& path, const PackingReading& reading) {
+  NetworkFile<D> network = read_network<D>(path, reading.gap_tolerance);
+  file.links_given = network.links_given;
+  const bool isolated = !network.packing.cell;
+  set_box(network.packing, path, reading);
+  if (reading.box && isolated) {
+    check_cell(network.packing, path);
+    // The file was read as isolated: with its cell the nearest images are meant, and more grains may touch.
+    if (!file.links_given) find_touching(network.packing, reading);
+    for (Link<D>& link : network.packing.links) {
+      if (!file.links_given) break;
+      const auto i = static_cast<std::size_t>(link.i), j = static_cast<std::size_t>(link.j);
+      const Bodies<D>& b = network.packing.bodies;
+      link.shift = network.packing.cell->nearest_image(b.position[j] - b.position[i]);
+      const Vec<D> branch = b.position[j] - b.position[i] + network.packing.cell->offset(link.shift);
+      link.gap = norm(branch) - b.radius[i] - b.radius[j];
+    }
+  }
+  set_packing(file, std::move(network.packing), path);
+}
+
+// Grains of a table, a cell, and the links of a second table if there is one.
+template <int D>
+void read_tables_into(PackingFile& file, const TextTable& grains, const std::optional<TextTable>& links,
+                      const std::optional<std::vector<double>>& own_box, const PackingReading& reading) {
+  Packing<D> packing;
+  packing.bodies = read_grains<D>(grains);
+  if (own_box) packing.cell = cell_of<D>(*own_box);
+  set_box(packing, grains.path, reading);
+  check_cell(packing, grains.path);
+  file.links_given = links.has_value();
+  if (links)
+    packing.links = read_links<D>(*links, packing);
+  else
+    find_touching(packing, reading);
+  set_packing(file, std::move(packing), grains.path);
+}
+
+void read_tables(PackingFile& file, const TextTable& grains, const std::optional<TextTable>& links,
+                 const std::optional<std::vector<double>>& own_box, const PackingReading& reading) {
+  if (grain_dimension(grains) == 3)
+    read_tables_into<3>(file, grains, links, own_box, reading);
+  else
+    read_tables_into<2>(file, grains, links, own_box, reading);
+}
+
+bool exists(const std::string& path) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(path, ignored);
+}
+
+void read_csv(PackingFile& file, const std::string& path, const PackingReading& reading) {
+  const std::string text = read_text_file(path), links_path = contacts_csv_path(path);
+  std::string links_text;
+  std::optional<TextTable> links;
+  if (links_path != path && exists(links_path)) {
+    links_text = read_text_file(links_path);
+    links = parse_csv(links_text, links_path);
+  }
+  read_tables(file, parse_csv(text, path), links, std::nullopt, reading);
+}
+
+void read_dump(PackingFile& file, const std::string& path, const PackingReading& reading) {
+  const std::string text = read_text_file(path), links_path = links_dump_path(path);
+  std::string links_text;
+  std::optional<DumpFrame> links;
+  if (links_path != path && exists(links_path)) {
+    links_text = read_text_file(links_path);
+    links = parse_dump(links_text, links_path);
+  }
+  const DumpFrame grains = parse_dump(text, path);
+  read_tables(file, grains.table, links ? std::optional(links->table) : std::nullopt, grains.box, reading);
+}
+
+// X.csv may stand for X.grains.csv.
+std::string existing_path(const std::string& path) {
+  if (!exists(path) && path.ends_with(".csv") && exists(grains_csv_path(path))) return grains_csv_path(path);
+  return path;
+}
+
+std::string first_bytes(const std::string& path) {
+  std::error_code ignored;
+  std::ifstream in(path, std::ios::binary);
+  if (!in || std::filesystem::is_directory(path, ignored))
+    throw InputError(path, 0, "", "", "cannot be read; give an existing file");
+  std::string bytes(4096, '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(in.gcount()));
+  return bytes;
+}
+
+}  // namespace
+
+PackingFormat sniff_packing_format(const std::string& path) {
+  const std::string bytes = first_bytes(existing_path(path));
+  // Also other HDF5 files, damaged states and whatever is called .h5: the reader of states says what is wrong.
+  if (is_state_file(existing_path(path)) || bytes.starts_with("\x89HDF\r\n\x1a\n") || path.ends_with(".h5"))
+    return PackingFormat::state;
+  const bool is_text = bytes.find('\0') == std::string::npos;
+  for (std::size_t at = 0; is_text && at < bytes.size();) {
+    const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
+    const std::string line = bytes.substr(at, end - at);
+    at = end + 1;
+    const std::size_t first = line.find_first_not_of(" \t\r\v\f");
+    if (first == std::string::npos || line[first] == '#') continue;
+    const std::string word = line.substr(first, line.find_first_of(" \t\r,", first) - first);
+    if (word == "cell" || word == "grain" || word == "contact") return PackingFormat::network;
+    if (word == "ITEM:") return PackingFormat::dump;
+    if (line.find(',') != std::string::npos) return PackingFormat::csv;
+    break;
+  }
+  // A network with a misspelt first line is told so by its own reader.
+  if (path.ends_with(".net")) return PackingFormat::network;
+  throw InputError(path, 0, "", "",
+                   "is no state (HDF5), network (.net), LAMMPS dump or CSV of grains; a damaged state must be packed "
+                   "again");
+}
+
+PackingFile read_packing(const std::string& given_path, const PackingReading& reading) {
+  const std::string path = existing_path(given_path);
+  PackingFile file;
+  file.format = sniff_packing_format(path);
+  switch (file.format) {
+    case PackingFormat::state:
+      if (reading.box) throw InputError(path, 0, "--box", "", "a state has its own cell; leave --box out");
+      file.state = read_state(path);
+      file.packing = file.state->packing;
+      file.links_given = true;
+      break;
+    case PackingFormat::network:
+      if (network_dimension(path) == 3)
+        read_network_into<3>(file, path, reading);
+      else
+        read_network_into<2>(file, path, reading);
+      break;
+    case PackingFormat::dump:
+      read_dump(file, path, reading);
+      break;
+    case PackingFormat::csv:
+      read_csv(file, path, reading);
+      break;
+  }
+  return file;
+}
+
+State foreign_state(Packing<2> packing) {
+  State state;
+  state.packing = std::move(packing);
+  return state;
+}
+
+}  // namespace isostat

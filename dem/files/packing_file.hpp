@@ -1,0 +1,37 @@
+// Any file that holds a packing, told apart by its content: a state (HDF5), a network, a LAMMPS dump, a CSV of grains.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dem/state/packing.hpp"
+#include "dem/state/state.hpp"
+
+namespace isostat {
+
+enum class PackingFormat { state, network, dump, csv };
+
+struct PackingFile {
+  PackingFormat format = PackingFormat::state;
+  Packing<2> packing;                    // of a planar file
+  std::optional<Packing<3>> packing_3d;  // of a 3D file; `packing` is then empty
+  std::optional<State> state;            // of a state file; `packing` is a copy of its packing
+  bool links_given = false;              // the file lists its links; false: found by touching
+};
+
+struct PackingReading {
+  std::optional<double> gap_tolerance;  // [length of the file] for finding contacts; none: see dem/state/touching.hpp
+  std::optional<std::vector<double>> box;  // edges of the cell of a file that has none (--box)
+};
+
+// Throws InputError if the file cannot be read, is of no known format, is faulty, or has a cell and is given another.
+// Beside X.grains.csv (or X.csv) the contacts are looked for in X.contacts.csv, beside X.dump in X.contacts.dump.
+PackingFile read_packing(const std::string& path, const PackingReading& reading = {});
+
+// What the file is, by its first bytes. Throws InputError for an unknown one.
+PackingFormat sniff_packing_format(const std::string& path);
+
+// A state for a foreign packing: no law, no history, time 0; kinds, gaps and forces of the links as given.
+State foreign_state(Packing<2> packing);
+
+}  // namespace isostat

@@ -1,0 +1,60 @@
+// Runs the stages of a scene one after the other, each to its own end.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "dem/run/finishing.hpp"
+#include "dem/solver/solver.hpp"
+#include "dem/state/certificate.hpp"
+#include "dem/state/state.hpp"
+
+namespace isostat {
+
+// What an observer may see while a stage runs.
+struct Progress {
+  std::int32_t stage = 0;
+  double time = 0;  // [T0]
+  double solid_fraction = 0;
+  WorstCriterion last;  // the equilibrium criterion furthest from being met
+  const Certificate* certificate = nullptr;
+};
+
+// Observers read; nothing they ask for changes the run.
+struct RunHooks {
+  std::function<bool()> interrupted;              // polled a few times a second; true: stop resumably
+  std::function<void(const Progress&)> progress;  // at every look at the packing
+  std::function<void(const State&)> observe;      // at multiples of observe_interval [T0]
+  double observe_interval = 0;                    // 0: never
+  std::function<void(const State&)> stage_end;    // after each stage, with progress at the next
+  std::function<void(const State&)> snapshot;     // at the scene's output.snapshot_times and _solid_fractions
+  std::function<void(const State&)> checkpoint;   // resumable, every checkpoint_seconds of wall time
+  double checkpoint_seconds = 0;                  // 0: never
+  double max_time = 0;                            // [T0] of the whole run; 0: no limit. Stages left then are not met.
+};
+
+struct StageOutcome {
+  std::int32_t stage = 0;
+  bool met = false;         // its own end was reached
+  double time = 0;          // [T0] at the end
+  std::string reason;       // what ended it, or what is missing and the key to turn
+  std::int64_t moving = 0;  // an equilibrium by its means, in which so many grains still move (Certificate::moving)
+};
+
+struct RunOutcome {
+  std::vector<StageOutcome> stages;
+  bool interrupted = false;  // by the hook; the state is resumable
+  std::int64_t steps = 0;    // of this run
+  StepTimes times;
+  double cpu_seconds = 0, wall_seconds = 0;  // stepping only
+  bool all_met() const;
+};
+
+// Goes on from wherever state.progress stands, to the end of the last stage. The state is left at the last instant
+// with its certificate. Throws RunError if the run blows up, after leaving the last sane snapshot in `state`.
+// finish.method = "newton" needs a finisher, else InputError.
+RunOutcome run_stages(State& state, const SolverOptions& options, const RunHooks& hooks,
+                      StaticSolver* finisher = nullptr);
+
+}  // namespace isostat

@@ -1,0 +1,45 @@
+#include "dem/scene/documentation.hpp"
+
+#include "dem/scene/text.hpp"
+
+namespace isostat {
+
+std::string scene_documentation() {
+  const Scene scene = scene_with_every_key();
+  std::string text =
+      "# Scene keys\n\n"
+      "Generated from the table in `dem/scene/keys.cpp`; run the tests with `ISOSTAT_REGENERATE=1` to write it "
+      "anew.\n\n"
+      "A scene is a TOML file. Every key has a default unless the table says otherwise; an unknown key is an error. On "
+      "the command line, `--set KEY=VALUE` overrides a key with a TOML value (`0.5`, `true`, `'\"text\"'`); keys of "
+      "the "
+      "n-th `[[stage]]` are `stage.n.KEY`, counted from 0. An integer is accepted for a real. A key whose condition "
+      "does not hold is ignored.\n\n"
+      "Units: a is the largest diameter, m the mass of a disk of that diameter, F0 the attraction of a contact "
+      "(without "
+      "cohesion a P), T0 = sqrt(m a / F0), V* = sqrt(F0 D0 / m), F1 = max(F0, a P).\n";
+  std::string table = "-";
+  for (const SceneKey& key : scene_keys()) {
+    if (table_of(key) != table) {
+      table = table_of(key);
+      const std::string heading = table.empty()           ? "Top level"
+                                  : belongs_to_stage(key) ? "`[[stage]]`, in the order they run"
+                                  : belongs_to_units(key)
+                                      ? "`[units]`, maps the reduced run to SI; all three keys or no table"
+                                      : "`[" + table + "]`";
+      text += "\n## " + heading +
+              "\n\n| key | type and range | unit | default | meaning |\n| --- | --- | --- | --- | --- |\n";
+    }
+    std::string fallback = value_text(key, scene, 0);
+    if (belongs_to_units(key)) fallback = "required";
+    if (fallback.empty()) fallback = std::string(key.absent);
+    const std::string unit = key.unit.empty() ? "-" : std::string(key.unit);
+    text += "| `" + std::string(key.name) + "` | " + rule_text(key) + " | " + unit + " | " + fallback + " | " +
+            std::string(key.meaning);
+    if (key.condition.holds) text += " Applies when " + std::string(key.condition.in_words) + ".";
+    text += " |\n";
+  }
+  return text;
+}
+
+}  // namespace isostat

@@ -1,0 +1,12 @@
+// A number for the set of contacts, the same for any order of grains and contacts: two states with equal numbers have,
+// but for one chance in 2^64, the same contacts. Distant pairs do not count.
+#pragma once
+#include <cstdint>
+
+#include "dem/state/state.hpp"
+
+namespace isostat {
+
+std::uint64_t contact_set(const State& state);
+
+}  // namespace isostat

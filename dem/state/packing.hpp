@@ -1,0 +1,76 @@
+// A packing is bodies and links: passive data, exchanged between solver, state file and analysis.
+//
+// Reduced units: length a (largest diameter), mass m (disk of diameter a), force F0 (or a P without cohesion);
+// T0 = sqrt(m a / F0). Gilabert 2007, Sec. II.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "geometry/periodic_cell.hpp"
+#include "geometry/vec.hpp"
+
+namespace isostat {
+
+template <int D>
+using Spin = std::conditional_t<D == 2, double, Vec3>;  // angular velocity or moment: a number in the plane
+
+template <int D>
+using Tangential = std::conditional_t<D == 2, double, Vec3>;  // component along t = z x n in 2D, vector in 3D
+
+// Arrays over bodies, all of one length, in storage order (the solver may permute bodies; `id` names them).
+template <int D>
+struct Bodies {
+  std::vector<std::int64_t> id;  // distinct, any integers
+  std::vector<Vec<D>> position;  // [a] may lie outside the cell
+  std::vector<Vec<D>> velocity;  // [a/T0] peculiar: relative to the affine flow of the cell
+  std::vector<Spin<D>> spin;     // [1/T0] angular velocity
+  std::vector<double> radius;    // [a]
+  std::vector<double> mass;      // [m]
+  std::vector<double> inertia;   // [m a^2]
+  std::size_t size() const { return id.size(); }
+  void resize(std::size_t n) {
+    id.resize(n), position.resize(n), velocity.resize(n), spin.resize(n);
+    radius.resize(n), mass.resize(n), inertia.resize(n);
+  }
+};
+
+// What a link can transmit. Letters as in `.net` files.
+enum class LinkKind : std::uint8_t {
+  closed,           // c  contact: normal, tangential (friction), moment (rolling)
+  sliding,          // s  at the Coulomb limit: no tangential row
+  rolling_yielded,  // r  at the rolling limit: no moment row
+  both_yielded,     // sr
+  distant,          // d  attraction across a gap: normal row only
+};
+constexpr std::string_view letters(LinkKind kind) {
+  constexpr std::string_view names[] = {"c", "s", "r", "sr", "d"};
+  return names[static_cast<int>(kind)];
+}
+std::optional<LinkKind> link_kind_from_letters(std::string_view letters);
+
+// One interacting pair. i and j are indices into Bodies (not ids); branch vector r_ij = r_j + shift * L - r_i,
+// n = r_ij / |r_ij|, t = z x n. Force on j is N n + T t, on i its opposite; moment on j is -T l_j + M, on i
+// -T l_i - M, with the proportional lever arms of dem/state/link.hpp. Static forces only, no viscous part.
+template <int D>
+struct Link {
+  std::int32_t i = 0, j = 0;
+  ImageShift<D> shift{};
+  LinkKind kind = LinkKind::closed;
+  double gap = 0;                    // [a] h; h < 0 is overlap
+  double normal_force = 0;           // [F0] N > 0 repulsive
+  Tangential<D> tangential_force{};  // [F0]
+  Spin<D> moment{};                  // [F0 a] rolling moment M on j
+};
+
+template <int D>
+struct Packing {
+  std::optional<PeriodicCell<D>> cell;  // none: isolated
+  Bodies<D> bodies;
+  std::vector<Link<D>> links;
+};
+
+}  // namespace isostat

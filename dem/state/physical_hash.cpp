@@ -1,0 +1,101 @@
+#include "dem/state/physical_hash.hpp"
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <numeric>
+#include <tuple>
+
+namespace isostat {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "digests are defined on little-endian bytes");
+
+class Digest {
+ public:
+  Digest() : state_(XXH3_createState()) { XXH3_128bits_reset(state_); }
+  Digest(const Digest&) = delete;
+  Digest& operator=(const Digest&) = delete;
+  ~Digest() { XXH3_freeState(state_); }
+
+  void add(double x) { raw(x + 0.0); }  // -0 + 0 = +0
+  void add(std::int64_t n) { raw(n); }
+  void add(const Vec2& v) { add(v[0]), add(v[1]); }
+  std::string hex() const {
+    const XXH128_hash_t h = XXH3_128bits_digest(state_);
+    constexpr char digits[] = "0123456789abcdef";
+    std::string text;
+    for (const std::uint64_t word : {h.high64, h.low64})
+      for (int shift = 60; shift >= 0; shift -= 4) text += digits[(word >> shift) & 15];
+    return text;
+  }
+
+ private:
+  template <class T>
+  void raw(T value) {
+    XXH3_128bits_update(state_, &value, sizeof value);
+  }
+  XXH3_state_t* state_;
+};
+
+// A link seen from its smaller id; seen from the other end n and t turn round, so N and T keep their sign and M, the
+// moment on the far body, changes it.
+struct CanonicalLink {
+  std::int64_t a, b;
+  ImageShift<2> shift;
+  LinkKind kind;
+  double gap, normal_force, tangential_force, moment;
+  auto key() const { return std::tie(a, b, shift, kind, gap, normal_force, tangential_force, moment); }
+  bool operator<(const CanonicalLink& other) const { return key() < other.key(); }
+};
+
+CanonicalLink canonical(const Link<2>& l, const std::vector<std::int64_t>& id) {
+  const std::int64_t i = id[static_cast<std::size_t>(l.i)], j = id[static_cast<std::size_t>(l.j)];
+  const ImageShift<2> back{-l.shift[0], -l.shift[1]};
+  if (std::tie(i, back) <= std::tie(j, l.shift))
+    return {i, j, l.shift, l.kind, l.gap, l.normal_force, l.tangential_force, l.moment};
+  return {j, i, back, l.kind, l.gap, l.normal_force, l.tangential_force, -l.moment};
+}
+
+}  // namespace
+
+std::string physical_hash(const State& state) {
+  Digest digest;
+  digest.add(state.time);
+  const auto& [kn, kt, zeta, mu, mu_r, kr, f0, d0] = state.law;
+  for (const double x : {kn, kt, zeta, mu, mu_r, kr, f0, d0}) digest.add(x);
+  digest.add(std::int64_t{state.packing.cell.has_value()});
+  if (state.packing.cell) digest.add(state.packing.cell->length);
+  digest.add(state.cell_motion.reference_length);
+  digest.add(state.cell_motion.strain_rate);
+
+  const Bodies<2>& b = state.packing.bodies;
+  std::vector<std::size_t> order(b.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t p, std::size_t q) { return b.id[p] < b.id[q]; });
+  digest.add(static_cast<std::int64_t>(b.size()));
+  for (const std::size_t k : order) {
+    digest.add(b.id[k]);
+    digest.add(b.position[k]);
+    digest.add(b.velocity[k]);
+    for (const double x : {b.spin[k], b.radius[k], b.mass[k], b.inertia[k]}) digest.add(x);
+  }
+
+  std::vector<CanonicalLink> links;
+  links.reserve(state.packing.links.size());
+  for (const Link<2>& l : state.packing.links) links.push_back(canonical(l, b.id));
+  std::sort(links.begin(), links.end());
+  digest.add(static_cast<std::int64_t>(links.size()));
+  for (const CanonicalLink& l : links) {
+    digest.add(l.a), digest.add(l.b);
+    for (const int s : l.shift) digest.add(std::int64_t{s});
+    digest.add(static_cast<std::int64_t>(l.kind));
+    for (const double x : {l.gap, l.normal_force, l.tangential_force, l.moment}) digest.add(x);
+  }
+  return digest.hex();
+}
+
+}  // namespace isostat

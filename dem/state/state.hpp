@@ -1,0 +1,101 @@
+// Everything a run is at one instant: the packing, and what the solver needs to go on bit for bit.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "dem/scene/scene.hpp"
+#include "dem/state/packing.hpp"
+
+namespace isostat {
+
+// The cell's degrees of freedom (Gilabert 2007, Eq. 3).
+struct CellMotion {
+  Vec2 reference_length{};  // [a] L0: the cell at the start of the stage; strain rate = -Ldot / L0
+  Vec2 strain_rate{};       // [1/T0] at the last half step, compression positive
+  Vec2 stress{};            // [F0/a] measured sigma_11, sigma_22 at `time`, kinetic and viscous parts included
+};
+
+// Spring histories of one listed pair; zero for pairs out of contact.
+struct PairMemory {
+  std::int32_t i = 0, j = 0;
+  ImageShift<2> shift{};
+  double tangential_force = 0;  // [F0] T
+  double moment = 0;            // [F0 a] M
+};
+
+// What a restart needs beside the packing: leapfrog half-step velocities, the total forces at `time`, the positions
+// at which the two nested neighbour lists were built, and how much of their skins is used up. Empty for packings that
+// no solver has touched.
+struct SolverMemory {
+  std::vector<Vec2> half_velocity;                   // [a/T0] at time - dt/2
+  std::vector<double> half_spin;                     // [1/T0]
+  std::vector<Vec2> force;                           // [F0] total, viscous part included
+  std::vector<double> torque;                        // [F0 a]
+  std::vector<PairMemory> pairs;                     // pairs with history, any order
+  std::vector<Vec2> outer_position, inner_position;  // [a] at the last rebuild of each list
+  Vec2 outer_length{}, inner_length{};               // [a] cell edges then
+  double outer_skin = 0, inner_skin = 0;             // [a]
+  double outer_travel = 0, inner_travel = 0;         // [a] part of the skin that motion may have used since
+};
+
+// Energy taken out of, or put into, the bodies since the start of the run; kept only when the scene asks for energies.
+struct EnergyLedger {
+  double viscous = 0, sliding = 0, rolling = 0, drag = 0;  // [F0 a] dissipated
+  double cell_work = 0;                                    // [F0 a] done by the moving cell on the bodies
+  double injected = 0;                                     // [F0 a] by drawing velocities, changing parameters
+  // The forces at `time` act half before it and half after: the latter halves, due with the next step [F0 a].
+  double viscous_due = 0, cell_work_due = 0;
+};
+
+// Where the run stands in the scene's stages.
+struct StageProgress {
+  std::int32_t stage = 0;         // index into Scene::stages; == size: finished
+  double start_time = 0;          // [T0] when the current stage began
+  bool started = false;           // the stage's opening actions (velocities, reference length) are done
+  bool drag_on = false;           // the finishing drag acts
+  double quiet_since = 0;         // [T0] since when only creep has been left, as seen by the checks
+  std::uint64_t contact_set = 0;  // of the contacts at the last check, whatever their order
+  double unchanged_since = 0;     // [T0] since when it has been the same
+  double start_stiffness = 0;     // K_N [F0/a] when the stage began
+  Vec2 start_stress{};            // [F0/a] static stress sigma_11, sigma_22 when the stage began
+  double peak_stress = 0;         // [F0/a] largest change of the stress of a driven direction so far
+  bool drifting = false;          // static solves have silenced the vibrations, but not what floppy modes still do
+};
+
+// The three criteria of Gilabert 2007, Sec. II.D, evaluated from static forces.
+struct Certificate {
+  double max_force = 0;                 // [F1]
+  double max_moment = 0;                // [F1 a]
+  double pressure_error = 0;            // [F1/a] largest over the controlled directions; 0 in a fixed cell
+  double kinetic_energy_per_grain = 0;  // [F1 a]
+  double force_scale = 1;               // F1 = max(F0, a P) [F0]
+  double tolerance_force = 1e-4, tolerance_pressure = 1e-4, tolerance_kinetic = 5e-8;
+  std::int64_t sliding = 0;          // contacts with |T| >= (1 - 1e-6) mu N_e
+  std::int64_t rolling_yielded = 0;  // contacts with |M| >= (1 - 1e-6) mu_r N_e
+  double smallest_margin = 1;        // min over contacts of 1 - |T| / (mu N_e), and the same for rolling
+  std::int64_t moving = 0;           // grains that still move: whose own kinetic energy is above the tolerance of the
+                                     // mean, or that a static solve found driven in floppy or very soft modes
+  bool pressure_controlled = false;
+  bool equilibrated = false;
+  std::string finishing = "none";  // which finishing method acted, if any
+};
+
+struct State {
+  Packing<2> packing;  // positions, velocities and spins at `time`
+  LawParameters law;
+  double time = 0;  // [T0]
+  std::int64_t step = 0;
+  double time_step = 0;  // dt [T0]
+  CellMotion cell_motion;
+  ImposedStress imposed_stress;  // of the current or last stage
+  SolverMemory memory;
+  StageProgress progress;
+  EnergyLedger ledger;
+  Certificate certificate;
+  Scene scene;  // resolved scene: what was asked, --set applied
+  std::uint64_t seed = 1;
+  std::uint64_t random_counter = 0;  // draws made so far from the counter-based generator
+};
+
+}  // namespace isostat

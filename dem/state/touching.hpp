@@ -1,0 +1,25 @@
+// Contacts of a packing by touching: every pair of grains (any image, also a grain and its own image) whose gap is at
+// most a tolerance.
+#pragma once
+#include <vector>
+
+#include "dem/state/packing.hpp"
+
+namespace isostat {
+
+// Closed links with their gap, forces zero; sorted by (i, j, shift), i <= j. gap_tolerance [length], >= 0.
+template <int D>
+std::vector<Link<D>> touching_links(const Packing<D>& packing, double gap_tolerance);
+
+// Default tolerance: 1e-9 of the largest radius, far above rounding and far below any physical overlap.
+inline constexpr double kTouchingTolerance = 1e-9;
+template <int D>
+double default_gap_tolerance(const Bodies<D>& bodies);
+
+// A cell with an edge below this many largest radii is no packing but a mistake of units: every grain would touch its
+// own image dozens of times over. Readers of files refuse it before they look for contacts.
+inline constexpr double kSmallestCell = 0.1;
+template <int D>
+bool cell_fits(const Packing<D>& packing);
+
+}  // namespace isostat

@@ -1,0 +1,152 @@
+// The one idea of DESIGN.md: with G the linear map from body velocities to link velocities, the solver's link
+// velocities are G U and its body forces G^T f. G is the matrix of analysis/rigidity, itself held against a dense one
+// written here straight from Gilabert 2007, Eqs. A1-A6, columns (v_x, v_y, omega) of each body.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include <cmath>
+#include <vector>
+
+#include "analysis/rigidity/rigidity_matrix.hpp"
+#include "dem/solver/solver.hpp"
+#include "dem/state/link.hpp"
+#include "tests/support/disk_states.hpp"
+
+namespace isostat {
+namespace {
+
+Eigen::VectorXd velocities(const Bodies<2>& b) {
+  Eigen::VectorXd u(3 * static_cast<Eigen::Index>(b.size()));
+  for (std::size_t k = 0; k < b.size(); ++k)
+    u.segment<3>(3 * static_cast<Eigen::Index>(k)) << b.velocity[k][0], b.velocity[k][1], b.spin[k];
+  return u;
+}
+
+Eigen::MatrixXd from_the_paper(const Packing<2>& p) {
+  Eigen::MatrixXd g = Eigen::MatrixXd::Zero(3 * static_cast<Eigen::Index>(p.links.size()),
+                                            3 * static_cast<Eigen::Index>(p.bodies.size()));
+  for (std::size_t l = 0; l < p.links.size(); ++l) {
+    const Link<2>& link = p.links[l];
+    const auto i = static_cast<std::size_t>(link.i), j = static_cast<std::size_t>(link.j);
+    const Vec2 r = p.bodies.position[j] + p.cell->offset(link.shift) - p.bodies.position[i];
+    const double d = std::hypot(r[0], r[1]), sum = p.bodies.radius[i] + p.bodies.radius[j];
+    const Eigen::Vector2d n(r[0] / d, r[1] / d), t(-n[1], n[0]);
+    const auto row = 3 * static_cast<Eigen::Index>(l), ci = 3 * static_cast<Eigen::Index>(i),
+               cj = 3 * static_cast<Eigen::Index>(j);
+    g.block<1, 2>(row, cj) += n.transpose(), g.block<1, 2>(row, ci) -= n.transpose();
+    g.block<1, 2>(row + 1, cj) += t.transpose(), g.block<1, 2>(row + 1, ci) -= t.transpose();
+    g(row + 1, ci + 2) -= d * p.bodies.radius[i] / sum, g(row + 1, cj + 2) -= d * p.bodies.radius[j] / sum;
+    g(row + 2, cj + 2) += 1, g(row + 2, ci + 2) -= 1;
+  }
+  return g;
+}
+
+// The analysis' G, spread to three rows a link (those it does not keep stay zero).
+Eigen::MatrixXd assemble(const Packing<2>& p) {
+  const RigidityMatrix m = rigidity_matrix(p, NetworkLaw::rolling, false);
+  Eigen::MatrixXd g = Eigen::MatrixXd::Zero(3 * static_cast<Eigen::Index>(p.links.size()),
+                                            3 * static_cast<Eigen::Index>(p.bodies.size()));
+  for (std::int64_t r = 0; r < m.rows(); ++r)
+    for (std::int64_t k = m.row_start[static_cast<std::size_t>(r)]; k < m.row_start[static_cast<std::size_t>(r) + 1];
+         ++k) {
+      const auto at = static_cast<std::size_t>(r);
+      g(3 * m.link_of_row[at] + m.component[at], m.column[static_cast<std::size_t>(k)]) +=
+          m.value[static_cast<std::size_t>(k)];
+    }
+  return g;
+}
+
+State loaded_packing() {
+  oracle::RandomDisks r;
+  r.law = oracle::soft_law(), r.squeeze = 0.9, r.law.friction = 50, r.law.rolling_friction = 50;  // nothing slips
+  State s = random_state(r);
+  Solver solver(s, {});
+  solver.run(80);
+  solver.snapshot(s);
+  return s;
+}
+
+TEST(VirtualWork, TheAnalysisAssemblesTheMatrixOfThePaper) {
+  const Packing<2> p = loaded_packing().packing;
+  const Eigen::MatrixXd g = assemble(p), paper = from_the_paper(p);
+  for (std::size_t l = 0; l < p.links.size(); ++l) {
+    ASSERT_TRUE(p.links[l].kind == LinkKind::closed || p.links[l].kind == LinkKind::distant);
+    const Eigen::Index kept = p.links[l].kind == LinkKind::closed ? 3 : 1;
+    const auto row = 3 * static_cast<Eigen::Index>(l);
+    EXPECT_LT((g.middleRows(row, kept) - paper.middleRows(row, kept)).cwiseAbs().maxCoeff(), 1e-14);
+  }
+}
+
+TEST(VirtualWork, LinkVelocitiesOfTheSolverAreGTimesU) {
+  State s = loaded_packing();
+  ASSERT_GT(s.packing.links.size(), 40u);
+  // A step so short that nothing moves: springs stretch by dt G U.
+  const double dt = 1e-8;
+  s.memory = {};
+  s.time_step = dt;
+  for (Link<2>& l : s.packing.links) l.tangential_force = l.moment = 0;
+  State after = s;
+  Solver solver(s, {});
+  solver.step();
+  solver.snapshot(after);
+  const Eigen::MatrixXd g = assemble(after.packing);
+  const Eigen::VectorXd u = velocities(after.packing.bodies), velocity = g * u;
+  const double scale = velocity.cwiseAbs().maxCoeff();
+  std::size_t compared = 0;
+  for (std::size_t l = 0; l < after.packing.links.size(); ++l) {
+    const Link<2>& link = after.packing.links[l];
+    if (link.gap >= 0) continue;
+    const auto row = 3 * static_cast<Eigen::Index>(l);
+    EXPECT_NEAR(link.tangential_force / (-s.law.tangential_stiffness * dt), velocity[row + 1], 1e-5 * scale);
+    EXPECT_NEAR(link.moment / (-s.law.rolling_stiffness * dt), velocity[row + 2], 1e-5 * scale);
+    // and the shared header says the same, to rounding
+    const auto i = static_cast<std::size_t>(link.i), j = static_cast<std::size_t>(link.j);
+    const Bodies<2>& b = after.packing.bodies;
+    const Vec2 r = b.position[j] + after.packing.cell->offset(link.shift) - b.position[i],
+               v = b.velocity[j] - b.velocity[i];
+    const LinkVelocity<double> shared =
+        link_velocity(link_frame(r[0], r[1], b.radius[i], b.radius[j]), v[0], v[1], b.spin[i], b.spin[j]);
+    EXPECT_NEAR(shared.normal, velocity[row], 1e-13 * scale);
+    EXPECT_NEAR(shared.tangential, velocity[row + 1], 1e-13 * scale);
+    EXPECT_NEAR(shared.rolling, velocity[row + 2], 1e-13 * scale);
+    ++compared;
+  }
+  EXPECT_GT(compared, 15u);
+}
+
+TEST(VirtualWork, BodyForcesOfTheSolverAreGTransposedTimesTheLinkForces) {
+  for (const double damping : {0.0, 0.5}) {
+    State s = loaded_packing();
+    s.memory = {};
+    s.law.damping = damping;
+    Solver solver(s, {});  // evaluates the forces of the state as it stands
+    solver.snapshot(s);
+    const Eigen::MatrixXd g = assemble(s.packing);
+    const Eigen::VectorXd velocity = g * velocities(s.packing.bodies);
+    Eigen::VectorXd f(g.rows());
+    double largest_moment = 0;
+    for (std::size_t l = 0; l < s.packing.links.size(); ++l) {
+      const Link<2>& link = s.packing.links[l];
+      const auto row = 3 * static_cast<Eigen::Index>(l);
+      const double mi = s.packing.bodies.mass[static_cast<std::size_t>(link.i)],
+                   mj = s.packing.bodies.mass[static_cast<std::size_t>(link.j)];
+      const double eta = damping * 2 * std::sqrt(s.law.normal_stiffness * mi * mj / (mi + mj));
+      f.segment<3>(row) << link.normal_force - (link.gap < 0 ? eta * velocity[row] : 0), link.tangential_force,
+          link.moment;
+      largest_moment = std::max(largest_moment, std::abs(link.moment));
+    }
+    ASSERT_GT(largest_moment, 0.01);
+    const Eigen::VectorXd force = g.transpose() * f;
+    const double scale = f.cwiseAbs().maxCoeff();
+    for (std::size_t k = 0; k < s.packing.bodies.size(); ++k) {
+      const auto row = 3 * static_cast<Eigen::Index>(k);
+      EXPECT_NEAR(s.memory.force[k][0], force[row], 1e-12 * scale);
+      EXPECT_NEAR(s.memory.force[k][1], force[row + 1], 1e-12 * scale);
+      EXPECT_NEAR(s.memory.torque[k], force[row + 2], 1e-12 * scale);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace isostat

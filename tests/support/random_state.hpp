@@ -1,0 +1,14 @@
+// States with every member set to something, no physics in them, and their comparison member by member.
+#pragma once
+#include <cstdint>
+
+#include "dem/state/state.hpp"
+
+namespace isostat {
+
+State random_state(std::uint64_t seed, int grains, int links);
+
+// GoogleTest failures that name the members that differ.
+void expect_equal(const State& a, const State& b);
+
+}  // namespace isostat
