@@ -6,8 +6,6 @@
 #include <optional>
 #include <string>
 
-#include "analysis/structure/merge_curves.hpp"
-
 namespace isostat {
 namespace {
 
@@ -160,24 +158,9 @@ Json merge_arrays(const std::string& key, const Values& values) {
   return json;
 }
 
-// Curves over k or r, whose lengths follow the size of the cell.
-std::optional<Json> merge_curves(const std::string& key, const Values& some) {
-  if (!all_of(some, [](const Json& v) { return v.is_object(); })) return std::nullopt;
-  std::vector<Json> sections;
-  for (const Json* v : some) sections.push_back(*v);
-  if (!align_curves(key, sections)) return std::nullopt;
-  Values aligned;
-  for (const Json& s : sections) aligned.push_back(&s);
-  Json merged = merge_objects(aligned);
-  add_pooled(key, sections, merged);
-  return merged;
-}
-
 Json merge(const std::string& key, const Values& values) {
   const Values some = defined(values);
   if (some.empty()) return Json();
-  if (key == "scattering" || key == "dacf")
-    if (auto merged = merge_curves(key, some)) return *merged;
   if (key.ends_with("edges") && all_equal(values)) return *some.front();
   if (all_of(some, [](const Json& v) { return v.is_boolean(); }) && all_equal(some)) return *some.front();
   if (all_of(some, [](const Json& v) { return v.is_number() || v.is_boolean(); })) return merge_numbers(values);
@@ -192,25 +175,22 @@ Json merge(const std::string& key, const Values& values) {
   return one_per_input(values);
 }
 
-// A section's own way of merging, where it has one; only over the inputs that have the section.
-void merge_section(const Section& section, const std::vector<Json>& reports, Json& merged) {
-  const std::string name(section.name);
-  if (!section.align && !section.pooled) return;
+// A section whose values have to be aligned, over the inputs that have it; none: it is merged like any object.
+std::optional<Json> merge_aligned(const Section& section, const Values& values) {
+  if (!section.align) return std::nullopt;
   std::vector<Json> parts;
-  for (const Json& r : reports)
-    if (r.contains(name)) parts.push_back(r.at(name));
-  if (parts.size() < 2) return;
-  const bool aligned = !section.align || section.align(parts);
-  Values values;
-  for (const Json& p : parts) values.push_back(&p);
-  merged[name] = aligned ? merge_objects(values) : one_per_input(values);
-  if (aligned && section.pooled) merged[name]["pooled"] = section.pooled(parts);
+  for (const Json* v : defined(values)) parts.push_back(*v);
+  if (parts.empty() || !section.align(parts)) return std::nullopt;
+  Values aligned;
+  for (const Json& p : parts) aligned.push_back(&p);
+  Json merged = merge_objects(aligned);
+  if (section.pooled) merged["pooled"] = section.pooled(parts);
+  return merged;
 }
 
 }  // namespace
 
-nlohmann::ordered_json merge_reports(const std::vector<nlohmann::ordered_json>& reports,
-                                     const std::vector<Section>& table) {
+nlohmann::ordered_json merge_reports(const std::vector<nlohmann::ordered_json>& reports) {
   if (reports.size() == 1) return reports.front();
   Values values;
   Json inputs = Json::array();
@@ -220,7 +200,13 @@ nlohmann::ordered_json merge_reports(const std::vector<nlohmann::ordered_json>& 
   }
   Json json = merge_objects(values);
   json["inputs"] = inputs;
-  for (const Section& section : table) merge_section(section, reports, json);
+  for (const Section& section : sections()) {
+    const std::string name(section.name);
+    if (!json.contains(name)) continue;
+    Values parts;
+    for (const Json& r : reports) parts.push_back(r.contains(name) ? &r.at(name) : nullptr);
+    if (auto merged = merge_aligned(section, parts)) json[name] = std::move(*merged);
+  }
   if (json.contains("units")) {  // numbers of the unit table are no sample
     Values units;
     for (const Json& r : reports) units.push_back(&r.at("units"));

@@ -13,7 +13,6 @@ namespace isostat {
 // are; histograms ({"edges", "density"}) of equal bin width are aligned, a bin outside a sample's range being empty;
 // arrays of different lengths, lists of objects, ids, and differing strings become one entry an input.
 // A section with its own `align` and `pooled` is aligned first, and gets its pooled value.
-nlohmann::ordered_json merge_reports(const std::vector<nlohmann::ordered_json>& reports,
-                                     const std::vector<Section>& table = sections());
+nlohmann::ordered_json merge_reports(const std::vector<nlohmann::ordered_json>& reports);
 
 }  // namespace isostat

@@ -1,23 +1,20 @@
 #include "analysis/input.hpp"
 
-#include "dem/input_error.hpp"
+#include <algorithm>
 
 namespace isostat {
 
+std::optional<NetworkLaw> network_law_named(std::string_view name) {
+  const auto found = std::find(kNetworkLawNames.begin(), kNetworkLawNames.end(), name);
+  if (found == kNetworkLawNames.end()) return std::nullopt;
+  return static_cast<NetworkLaw>(found - kNetworkLawNames.begin());
+}
+
 NetworkLaw AnalysisInput::network_law(const AnalysisOptions& options) const {
   if (options.law) return *options.law;
-  if (!state || !(state->law.normal_stiffness > 0)) return NetworkLaw::friction;
-  if (!(state->law.friction > 0)) return NetworkLaw::frictionless;
-  return state->law.rolling_friction > 0 ? NetworkLaw::rolling : NetworkLaw::friction;
-}
-
-const Packing<2>& AnalysisInput::planar(std::string_view section) const {
-  if (packing_3d) refuse_section(*this, section, "is defined for packings in the plane; this one is in 3D");
-  return packing;
-}
-
-void refuse_section(const AnalysisInput& input, std::string_view section, std::string why) {
-  throw InputError(input.path, 0, "--only", std::string(section), std::move(why));
+  if (!has_law()) return NetworkLaw::friction;
+  if (!(state.law.friction > 0)) return NetworkLaw::frictionless;
+  return state.law.rolling_friction > 0 ? NetworkLaw::rolling : NetworkLaw::friction;
 }
 
 }  // namespace isostat

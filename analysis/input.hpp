@@ -1,5 +1,6 @@
 // What `isostat analyze` works on: a packing, the law it may bring, and the options of the command line.
 #pragma once
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,6 +11,10 @@
 namespace isostat {
 
 enum class NetworkLaw { frictionless, friction, rolling };  // which rows a link contributes to G
+
+inline constexpr std::array<std::string_view, 3> kNetworkLawNames{"frictionless", "friction", "rolling"};
+constexpr std::string_view name_of(NetworkLaw law) { return kNetworkLawNames[static_cast<std::size_t>(law)]; }
+std::optional<NetworkLaw> network_law_named(std::string_view name);  // none: no such law
 
 struct AnalysisOptions {
   std::optional<NetworkLaw> law;        // --law; none: the state's own law (a network: friction)
@@ -23,16 +28,16 @@ struct AnalysisOptions {
 
 struct AnalysisInput {
   std::string path;
-  Packing<2> packing;
-  std::optional<Packing<3>> packing_3d;  // a 3D network or foreign packing; `packing` is then empty
-  std::optional<State> state;            // absent for a plain-text network or foreign packing
+  State state;                           // a network or foreign packing is a state without law
+  std::optional<Packing<3>> packing_3d;  // a 3D network or foreign packing; `state` then has no grains
   bool links_given = false;              // the file lists links (a state always does); false: grains alone
-  NetworkLaw network_law(const AnalysisOptions& options) const;
-  // The planar packing; throws InputError naming the section if the input is 3D.
-  const Packing<2>& planar(std::string_view section) const;
-};
 
-// InputError of a section that does not apply to the input.
-[[noreturn]] void refuse_section(const AnalysisInput& input, std::string_view section, std::string why);
+  const Packing<2>& packing() const { return state.packing; }
+  // It comes from a run of the solver: knows its law, and is in reduced units. False for a foreign packing kept as .h5.
+  bool has_law() const { return state.law.normal_stiffness > 0; }
+  bool has_cell() const { return packing_3d ? packing_3d->cell.has_value() : packing().cell.has_value(); }
+  std::size_t grains() const { return packing_3d ? packing_3d->bodies.size() : packing().bodies.size(); }
+  NetworkLaw network_law(const AnalysisOptions& options) const;
+};
 
 }  // namespace isostat

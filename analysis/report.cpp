@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 
+#include "analysis/network/force_scale.hpp"
 #include "analysis/network/sections.hpp"
 #include "analysis/rigidity/sections.hpp"
+#include "analysis/structure/merge_curves.hpp"
 #include "analysis/structure/sections.hpp"
 #include "analysis/version.hpp"
 #include "dem/input_error.hpp"
@@ -15,20 +18,37 @@ namespace isostat {
 
 const std::vector<Section>& sections() {
   static const std::vector<Section> table{
-      {"counts", counts_section, counts_tables},
-      {"equilibrium", equilibrium_section},
-      {"stress", stress_section},
-      {"forces", forces_section, forces_tables},
-      {"percolation", percolation_section},
-      {"rigidity", rigidity_section},
-      {"clusters", clusters_section, clusters_tables},
-      {"stiffness", stiffness_section},
-      {"moduli", moduli_section},
-      {.name = "modes", .compute = modes_section, .tables = modes_tables, .only_when_named = true},
-      {.name = "bases", .compute = bases_section, .tables = bases_tables, .only_when_named = true},
-      {"pores", pores_section},
-      {"scattering", scattering_section},
-      {"dacf", dacf_section},
+      {.name = "counts", .takes = {.space = true}, .compute = counts_section, .tables = counts_tables},
+      {.name = "equilibrium", .takes = {.law = true}, .compute = equilibrium_section},
+      {.name = "stress",
+       .takes = {.cell_for = "an isolated packing has no area", .forces = Forces::needed},
+       .compute = stress_section},
+      {.name = "forces", .takes = {.forces = Forces::needed}, .compute = forces_section, .tables = forces_tables},
+      {.name = "percolation",
+       .takes = {.cell_for = "a network percolates to its own image", .forces = Forces::needed},
+       .compute = percolation_section},
+      {.name = "rigidity", .takes = {}, .compute = rigidity_section},
+      {.name = "clusters", .takes = {}, .compute = clusters_section, .tables = clusters_tables},
+      {.name = "stiffness", .takes = {.stiffness = true}, .compute = stiffness_section},
+      {.name = "moduli",
+       .takes = {.cell_for = "elastic moduli are those of its strains", .stiffness = true},
+       .compute = moduli_section},
+      {.name = "modes",
+       .takes = {.forces = Forces::with_prestress, .stiffness = true},
+       .compute = modes_section,
+       .tables = modes_tables,
+       .only_when_named = true},
+      {.name = "bases", .takes = {}, .compute = bases_section, .tables = bases_tables, .only_when_named = true},
+      {.name = "pores", .takes = {}, .compute = pores_section},
+      {.name = "scattering",
+       .takes = {.cell_for = "I(k) lives on its reciprocal lattice", .grains = true},
+       .compute = scattering_section,
+       .align = align_scattering,
+       .pooled = pooled_scattering},
+      {.name = "dacf",
+       .takes = {.cell_for = "C(r) averages over it", .grains = true},
+       .compute = dacf_section,
+       .align = align_dacf},
   };
   return table;
 }
@@ -60,16 +80,36 @@ void set_undefined_to_null(nlohmann::ordered_json& value) {
 
 // Lengths, masses and forces of the report are in these units; `si` appears when the scene maps the run to SI.
 nlohmann::ordered_json units_of(const AnalysisInput& input) {
-  if (!input.state || !(input.state->law.normal_stiffness > 0)) return {{"system", "of the input file"}};
-  const bool cohesive = input.state->law.attraction > 0;
+  if (!input.has_law()) return {{"system", "of the input file"}};
+  const bool cohesive = input.state.law.attraction > 0;
   nlohmann::ordered_json units{{"system", "reduced"},
                                {"length", "a"},
                                {"mass", "m"},
                                {"force", cohesive ? "F0" : "a P"},
                                {"time", cohesive ? "sqrt(m a / F0)" : "sqrt(m / P)"}};
-  if (const auto& si = input.state->scene.units)
+  if (const auto& si = input.state.scene.units)
     units["si"] = {{"length_m", si->length}, {"density_kg_per_m2", si->density}, {"force_N", si->force}};
   return units;
+}
+
+// Why a section does not take the input; none: it does.
+std::optional<std::string> refusal(const Takes& takes, const AnalysisInput& input, const AnalysisOptions& options) {
+  if (input.packing_3d && !takes.space) return "is defined for packings in the plane; this one is in 3D";
+  if (!input.has_cell() && !takes.cell_for.empty()) return "needs a periodic cell: " + std::string(takes.cell_for);
+  if (input.grains() == 0 && takes.grains) return "needs at least one grain";
+  if (!input.has_law() && takes.law) return "needs a state of the solver: this input has no interaction law";
+  const bool forces = read_forces(input).known;
+  if (!forces && takes.forces == Forces::needed) return "needs forces: this input has none";
+  if (!forces && takes.forces == Forces::with_prestress && options.prestress)
+    return "--prestress needs the forces of the links";
+  if (takes.stiffness && input.has_law()) {  // a state's law fills only the axes it has; a network's law has all
+    const NetworkLaw rows = input.network_law(options);
+    if (rows != NetworkLaw::frictionless && !(input.state.law.tangential_stiffness > 0))
+      return "the law of the state has no tangential stiffness; use --law frictionless";
+    if (rows == NetworkLaw::rolling && !(input.state.law.rolling_stiffness > 0))
+      return "the law of the state has no rolling stiffness; use --law friction";
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -81,15 +121,17 @@ nlohmann::ordered_json analyze(const AnalysisInput& input, const AnalysisOptions
   report["inputs"] = {input.path};
   report["units"] = units_of(input);
   for (const Section& section : sections()) {
-    if (only.empty()) {
-      if (section.only_when_named) continue;
-      try {
-        report[section.name] = section.compute(input, options);
-      } catch (const InputError&) {
-        report.erase(std::string(section.name));  // does not apply, and nobody asked for it by name
-      }
-    } else if (std::find(only.begin(), only.end(), section.name) != only.end()) {
-      report[section.name] = section.compute(input, options);
+    const bool named = std::find(only.begin(), only.end(), section.name) != only.end();
+    if (!named && (!only.empty() || section.only_when_named)) continue;
+    if (const auto why = refusal(section.takes, input, options)) {
+      if (named) throw InputError(input.path, 0, "--only", std::string(section.name), *why);
+      continue;
+    }
+    try {
+      auto value = section.compute(input, options);
+      report[section.name] = std::move(value);
+    } catch (const InputError&) {
+      if (named) throw;  // else it is absent like one that does not take the input
     }
   }
   set_undefined_to_null(report);

@@ -13,8 +13,8 @@ const std::vector<Section>& sections();  // in the order of the report
 // Names of `--only`, checked; empty text: none. Throws InputError naming the unknown ones.
 std::vector<std::string> parse_section_names(const std::string& comma_separated);
 
-// The report of one input. With no name every section that applies is computed but those that
-// must be named; a named one that does not apply throws.
+// The report of one input. With no name every section that takes it is computed but those that must be named; a named
+// one that does not take it throws InputError.
 nlohmann::ordered_json analyze(const AnalysisInput& input, const AnalysisOptions& options,
                                const std::vector<std::string>& only);
 

@@ -16,17 +16,32 @@ struct Table {
   std::vector<std::vector<double>> rows;
 };
 
-// A section: name, and a function from input to its JSON value. Throws InputError if it does not apply.
+enum class Forces { not_needed, with_prestress, needed };
+
+// Which inputs a section takes. `analyze` refuses the others, so that no section has to.
+struct Takes {
+  bool space = false;              // packings in space, too; else only those in the plane
+  std::string_view cell_for = {};  // why it needs a periodic cell; empty: it takes isolated packings, too
+  bool law = false;                // needs an interaction law: a state of the solver
+  Forces forces = Forces::not_needed;
+  bool grains = false;     // needs at least one grain
+  bool stiffness = false;  // needs a stiffness for every row of G that --law asks for
+};
+
+// A section: name, and a function from an input that it takes to its JSON value. What cannot be known before it is
+// computed (a grid too fine, say) it throws as InputError.
 struct Section {
+  using Json = nlohmann::ordered_json;
   std::string_view name;
-  nlohmann::ordered_json (*compute)(const AnalysisInput&, const AnalysisOptions&);
+  Takes takes;
+  Json (*compute)(const AnalysisInput&, const AnalysisOptions&) = nullptr;
   // Rows too many for the report, computed only for --csv. What the JSON value holds becomes tables by itself.
   std::vector<Table> (*tables)(const AnalysisInput&, const AnalysisOptions&) = nullptr;
-  // Ensembles of binned curves: brings the values of several inputs onto common bins before they are merged entry by
-  // entry; false: they have none, and the merged report keeps one value an input.
-  bool (*align)(std::vector<nlohmann::ordered_json>&) = nullptr;
-  // What is computed from all inputs together and not by averaging; stands as "pooled" in the merged section.
-  nlohmann::ordered_json (*pooled)(const std::vector<nlohmann::ordered_json>&) = nullptr;
+  // Curves whose length follows the size of the cell: brings the values of several inputs onto common bins before they
+  // are merged entry by entry. False, with the values untouched: they do not line up.
+  bool (*align)(std::vector<Json>& values) = nullptr;
+  // What is computed from all inputs together and not by averaging: "pooled" of the merged section. Of aligned values.
+  Json (*pooled)(const std::vector<Json>& aligned) = nullptr;
   // Long to compute or to read: left out unless it is named.
   bool only_when_named = false;
 };

@@ -18,10 +18,7 @@ namespace {
 
 AnalysisOptions options_of(const Arguments& arguments) {
   AnalysisOptions options;
-  if (const auto law = arguments.choice("--law", {"friction", "frictionless", "rolling"}))
-    options.law = *law == "frictionless" ? NetworkLaw::frictionless
-                  : *law == "rolling"    ? NetworkLaw::rolling
-                                         : NetworkLaw::friction;
+  if (const auto law = arguments.choice("--law", kNetworkLawNames)) options.law = network_law_named(*law);
   options.cell_free = arguments.choice("--cell", {"fixed", "free"}).value_or("fixed") == "free";
   options.prestress = arguments.has("--prestress");
   options.near_null = arguments.has("--near-null");

@@ -124,8 +124,7 @@ std::optional<long long> Arguments::integer(std::string_view name, long long low
   return x;
 }
 
-std::optional<std::string> Arguments::choice(std::string_view name,
-                                             std::initializer_list<std::string_view> choices) const {
+std::optional<std::string> Arguments::choice(std::string_view name, std::span<const std::string_view> choices) const {
   auto text = value(name);
   if (!text || std::find(choices.begin(), choices.end(), *text) != choices.end()) return text;
   std::string list;

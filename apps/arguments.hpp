@@ -2,6 +2,7 @@
 #pragma once
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,7 +45,10 @@ class Arguments {
   // InputError if the value is not a finite number / not an integer in range / not one of the choices.
   std::optional<double> number(std::string_view name) const;
   std::optional<long long> integer(std::string_view name, long long low, long long high) const;
-  std::optional<std::string> choice(std::string_view name, std::initializer_list<std::string_view> choices) const;
+  std::optional<std::string> choice(std::string_view name, std::span<const std::string_view> choices) const;
+  std::optional<std::string> choice(std::string_view name, std::initializer_list<std::string_view> choices) const {
+    return choice(name, std::span(choices.begin(), choices.size()));
+  }
 
  private:
   struct Given {

@@ -68,17 +68,16 @@ int convert_command(int argc, char** argv) {
   if (reading.gap_tolerance && *reading.gap_tolerance < 0)
     throw InputError("command line", 0, "--gap-tolerance", *arguments.value("--gap-tolerance"), "must not be negative");
 
-  PackingFile file = read_packing(input_path, reading);
+  const PackingFile file = read_packing(input_path, reading);
   if (output.ends_with(".h5")) {
     if (file.packing_3d)
       throw InputError(input_path, 0, "-o", output, "a state file holds planar packings; this one is in 3D");
-    write_state(file.state ? *file.state : foreign_state(std::move(file.packing)), output);
+    write_state(file.state, output);
     return exit_done;
   }
-  const std::int64_t step = file.state ? file.state->step : 0;
-  const double time = file.state ? file.state->time : 0;
-  write_text_files(file.packing_3d ? files_of(*file.packing_3d, output, step, time)
-                                   : files_of(file.packing, output, step, time));
+  const State& state = file.state;
+  write_text_files(file.packing_3d ? files_of(*file.packing_3d, output, state.step, state.time)
+                                   : files_of(state.packing, output, state.step, state.time));
   return exit_done;
 }
 

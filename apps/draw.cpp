@@ -28,12 +28,12 @@ Content forces(const Arguments& arguments, const AnalysisInput& input, const For
   options.convention.width = width == "total" ? ForceMeasure::total : ForceMeasure::normal;
   options.scale = reading.scale;
   if (reading.law_known) {
-    const bool by_attraction = input.state->law.attraction >= reading.scale;
+    const bool by_attraction = input.state.law.attraction >= reading.scale;
     options.scale_label = by_attraction ? rich("`F`_{0}") : rich("`aP`");
     options.width_at_scale = by_attraction ? kWidthAtF0 : kWidthAtAP;
   }
   if (!reading.cohesive) {
-    const Coordination c = coordination(input.packing, reading);
+    const Coordination c = coordination(input.packing(), reading);
     options.rattler.assign(c.rattler.begin(), c.rattler.end());
   }
   return forces_content(std::move(options));
@@ -41,7 +41,7 @@ Content forces(const Arguments& arguments, const AnalysisInput& input, const For
 
 Content velocity(const AnalysisInput& input, const ForceReading& reading) {
   MotionOptions options{
-      input.packing.bodies.velocity, input.packing.bodies.spin, rich("`v`"), plain("spin"), {}, {}, {}};
+      input.packing().bodies.velocity, input.packing().bodies.spin, rich("`v`"), plain("spin"), {}, {}, {}};
   if (reading.law_known) options.speed_unit = rich("`a`/`T`_{0}"), options.spin_unit = rich("/`T`_{0}");
   return motion_content(std::move(options));
 }
@@ -52,7 +52,7 @@ Content mode(const Arguments& arguments, const AnalysisInput& input, const Force
   const auto refuse = [&](const std::string& why) { throw InputError(input.path, 0, "--what", "modes", why); };
   VibrationModes modes;
   try {
-    modes = vibration_modes(input.packing, input.network_law({}), law_of(input), number, true);
+    modes = vibration_modes(input.packing(), input.network_law({}), law_of(input), number, true);
   } catch (const std::length_error& error) {
     refuse(error.what());
   } catch (const FactorisationFailed& error) {
@@ -63,7 +63,7 @@ Content mode(const Arguments& arguments, const AnalysisInput& input, const Force
            std::to_string(modes.zero_modes) + " zero modes");
   const std::vector<double>& u = modes.displacement.back();
   MotionOptions options;
-  for (std::size_t i = 0; i < input.packing.bodies.size(); ++i) {
+  for (std::size_t i = 0; i < input.packing().bodies.size(); ++i) {
     const std::size_t at = i * static_cast<std::size_t>(modes.per_body);
     options.velocity.push_back({{u[at], u[at + 1]}});
     options.spin.push_back(modes.per_body > 2 ? u[at + 2] : 0.0);
@@ -76,7 +76,7 @@ Content mode(const Arguments& arguments, const AnalysisInput& input, const Force
 }
 
 Content clusters(const AnalysisInput& input) {
-  const RigidClusters rigid = rigid_clusters(input.packing, input.network_law({}), false);
+  const RigidClusters rigid = rigid_clusters(input.packing(), input.network_law({}), false);
   ClusterOptions options{rigid.cluster_of_grain, rigid.cluster_of_link, {}};
   for (const RigidCluster& c : rigid.clusters) options.hyperstatic.push_back(c.hyperstatic > 0);
   return clusters_content(std::move(options));
@@ -93,13 +93,13 @@ double signed_area(const Polygon& wall) {
 }
 
 Content pores(const AnalysisInput& input, const ForceReading& reading) {
-  const Bodies<2>& b = input.packing.bodies;
+  const Bodies<2>& b = input.packing().bodies;
   PoreOptions how;
   how.with_arcs = true;
   Pores found;
   try {
-    found = input.packing.cell ? find_pores(b.position, b.radius, *input.packing.cell, how)
-                               : find_enclosed_pores(b.position, b.radius, how);
+    found = input.packing().cell ? find_pores(b.position, b.radius, *input.packing().cell, how)
+                                 : find_enclosed_pores(b.position, b.radius, how);
   } catch (const std::invalid_argument& error) {
     throw InputError(input.path, 0, "--what", "pores", error.what());
   }
@@ -151,9 +151,9 @@ int draw_command(int argc, char** argv) {
 
   const AnalysisInput input = load_input(arguments.inputs()[0], {});
   if (input.packing_3d) throw InputError(input.path, 0, "", "", "is a packing in 3D; draw shows packings in the plane");
-  if (input.packing.bodies.size() == 0) throw InputError(input.path, 0, "", "", "has no grains to draw");
+  if (input.grains() == 0) throw InputError(input.path, 0, "", "", "has no grains to draw");
   const ForceReading reading = read_forces(input);
-  const PackingPicture picture(input.packing, content_of(arguments, input, reading), length_unit(reading));
+  const PackingPicture picture(input.packing(), content_of(arguments, input, reading), length_unit(reading));
   const auto canvas = file.canvas(picture.size());
   picture.draw(*canvas);
   file.write(*canvas);

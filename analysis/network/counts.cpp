@@ -65,22 +65,31 @@ nlohmann::ordered_json counts_of(const Packing<D>& packing, const ForceReading& 
   return json;
 }
 
+template <int D>
+Table grains_of(const Packing<D>& packing, const ForceReading& reading) {
+  const Coordination c = coordination(packing, reading);
+  Table table{"grains", {"id", "x", "y", "r", "interactions", "backbone_interactions", "rattler"}, {}};
+  if constexpr (D == 3) table.columns.insert(table.columns.begin() + 3, "z");
+  for (std::size_t k = 0; k < packing.bodies.size(); ++k) {
+    std::vector<double> row{static_cast<double>(packing.bodies.id[k])};
+    for (int d = 0; d < D; ++d) row.push_back(packing.bodies.position[k][d]);
+    row.insert(row.end(), {packing.bodies.radius[k], static_cast<double>(c.degree[k]),
+                           static_cast<double>(c.backbone_degree[k]), static_cast<double>(c.rattler[k])});
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
 }  // namespace
 
 nlohmann::ordered_json counts_section(const AnalysisInput& input, const AnalysisOptions&) {
   const ForceReading reading = read_forces(input);
-  return input.packing_3d ? counts_of(*input.packing_3d, reading) : counts_of(input.packing, reading);
+  return input.packing_3d ? counts_of(*input.packing_3d, reading) : counts_of(input.packing(), reading);
 }
 
 std::vector<Table> counts_tables(const AnalysisInput& input, const AnalysisOptions&) {
-  const Packing<2>& packing = input.planar("counts");
-  const Coordination c = coordination(packing, read_forces(input));
-  Table table{"grains", {"id", "x", "y", "r", "interactions", "backbone_interactions", "rattler"}, {}};
-  for (std::size_t k = 0; k < packing.bodies.size(); ++k)
-    table.rows.push_back({static_cast<double>(packing.bodies.id[k]), packing.bodies.position[k][0],
-                          packing.bodies.position[k][1], packing.bodies.radius[k], static_cast<double>(c.degree[k]),
-                          static_cast<double>(c.backbone_degree[k]), static_cast<double>(c.rattler[k])});
-  return {table};
+  const ForceReading reading = read_forces(input);
+  return {input.packing_3d ? grains_of(*input.packing_3d, reading) : grains_of(input.packing(), reading)};
 }
 
 }  // namespace isostat

@@ -38,11 +38,11 @@ ForceReading read_foreign(const Packing<D>& packing) {
 
 ForceReading read_forces(const AnalysisInput& input) {
   if (input.packing_3d) return read_foreign(*input.packing_3d);
-  if (!input.state || !(input.state->law.normal_stiffness > 0)) return read_foreign(input.packing);
+  if (!input.has_law()) return read_foreign(input.packing());
   ForceReading reading;
   reading.known = reading.law_known = true;
-  reading.cohesive = input.state->law.attraction > 0;
-  reading.scale = force_scale(input.state->law, input.state->imposed_stress);
+  reading.cohesive = input.state.law.attraction > 0;
+  reading.scale = force_scale(input.state.law, input.state.imposed_stress);
   reading.threshold = kLoadTolerance * reading.scale;
   return reading;
 }

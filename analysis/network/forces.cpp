@@ -76,9 +76,8 @@ nlohmann::ordered_json histograms(const Packing<2>& packing, const ForceReading&
 }  // namespace
 
 nlohmann::ordered_json forces_section(const AnalysisInput& input, const AnalysisOptions&) {
-  const Packing<2>& packing = input.planar("forces");
+  const Packing<2>& packing = input.packing();
   const ForceReading reading = read_forces(input);
-  if (!reading.known) refuse_section(input, "forces", "needs forces: this input has none");
   Population plus, minus, zero;
   double unstressed = 0, above_tenth = 0;
   std::vector<double> magnitudes;
@@ -109,7 +108,7 @@ nlohmann::ordered_json forces_section(const AnalysisInput& input, const Analysis
 }
 
 std::vector<Table> forces_tables(const AnalysisInput& input, const AnalysisOptions&) {
-  const Packing<2>& packing = input.planar("forces");
+  const Packing<2>& packing = input.packing();
   Table table{"links", {"i", "j", "distant", "h", "N", "T", "M", "F", "angle"}, {}};
   for (const Link<2>& link : packing.links) {
     const auto id = [&](std::int32_t k) { return static_cast<double>(packing.bodies.id[static_cast<std::size_t>(k)]); };

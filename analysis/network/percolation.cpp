@@ -33,11 +33,8 @@ std::optional<Percolation> force_percolation(const Packing<2>& packing) {
 }
 
 nlohmann::ordered_json percolation_section(const AnalysisInput& input, const AnalysisOptions&) {
-  const Packing<2>& packing = input.planar("percolation");
-  if (!packing.cell) refuse_section(input, "percolation", "needs a periodic cell");
-  if (!read_forces(input).known) refuse_section(input, "percolation", "needs forces: this input has none");
   nlohmann::ordered_json json{{"F_perc", nullptr}, {"direction", nullptr}};
-  if (const auto p = force_percolation(packing)) json = {{"F_perc", p->force}, {"direction", p->direction()}};
+  if (const auto p = force_percolation(input.packing())) json = {{"F_perc", p->force}, {"direction", p->direction()}};
   return json;
 }
 

@@ -19,22 +19,22 @@ constexpr int kNearNullValues = 6;
 
 // Null modes that vanish when the rattlers and their links are taken away (rattlers of a cohesionless state may touch).
 std::int64_t rattler_modes(const AnalysisInput& input, NetworkLaw law, bool cell_free, const ExactRank& whole) {
-  const Coordination c = coordination(input.packing, read_forces(input));
+  const Coordination c = coordination(input.packing(), read_forces(input));
   bool linked = false;
-  for (const Link<2>& l : input.packing.links)
+  for (const Link<2>& l : input.packing().links)
     linked = linked || c.rattler[static_cast<std::size_t>(l.i)] || c.rattler[static_cast<std::size_t>(l.j)];
   if (!linked) return whole.rattler_modes;
   Packing<2> backbone;
-  backbone.cell = input.packing.cell;
-  std::vector<std::int32_t> number(input.packing.bodies.size(), -1);
+  backbone.cell = input.packing().cell;
+  std::vector<std::int32_t> number(input.packing().bodies.size(), -1);
   for (std::size_t i = 0; i < number.size(); ++i) {
     if (c.rattler[i]) continue;
     number[i] = static_cast<std::int32_t>(backbone.bodies.size());
-    backbone.bodies.id.push_back(input.packing.bodies.id[i]);
-    backbone.bodies.position.push_back(input.packing.bodies.position[i]);
-    backbone.bodies.radius.push_back(input.packing.bodies.radius[i]);
+    backbone.bodies.id.push_back(input.packing().bodies.id[i]);
+    backbone.bodies.position.push_back(input.packing().bodies.position[i]);
+    backbone.bodies.radius.push_back(input.packing().bodies.radius[i]);
   }
-  for (Link<2> link : input.packing.links) {
+  for (Link<2> link : input.packing().links) {
     link.i = number[static_cast<std::size_t>(link.i)], link.j = number[static_cast<std::size_t>(link.j)];
     if (link.i >= 0 && link.j >= 0) backbone.links.push_back(link);
   }
@@ -56,12 +56,8 @@ Json near_null(const Packing<2>& packing, NetworkLaw law, const AnalysisOptions&
 
 }  // namespace
 
-const char* name_of(NetworkLaw law) {
-  return law == NetworkLaw::frictionless ? "frictionless" : law == NetworkLaw::friction ? "friction" : "rolling";
-}
-
 Json rigidity_section(const AnalysisInput& input, const AnalysisOptions& options) {
-  const Packing<2>& packing = input.planar("rigidity");
+  const Packing<2>& packing = input.packing();
   const NetworkLaw law = input.network_law(options);
   ExactRank r = exact_rank(packing, law, options.cell_free);
   r.rattler_modes = rattler_modes(input, law, options.cell_free, r);
@@ -104,7 +100,7 @@ Json rigidity_section(const AnalysisInput& input, const AnalysisOptions& options
 }
 
 Json clusters_section(const AnalysisInput& input, const AnalysisOptions& options) {
-  const Packing<2>& packing = input.planar("clusters");
+  const Packing<2>& packing = input.packing();
   const RigidClusters found = rigid_clusters(packing, input.network_law(options), options.cell_free);
   Json sizes = Json::array(), list = Json::array();
   std::int64_t hyperstatic = 0, spanning = 0;
@@ -126,7 +122,7 @@ Json clusters_section(const AnalysisInput& input, const AnalysisOptions& options
 }
 
 std::vector<Table> clusters_tables(const AnalysisInput& input, const AnalysisOptions& options) {
-  const Packing<2>& packing = input.planar("clusters");
+  const Packing<2>& packing = input.packing();
   const RigidClusters found = rigid_clusters(packing, input.network_law(options), options.cell_free);
   Table grains{"clusters.grains", {"id", "cluster"}, {}};
   for (std::size_t i = 0; i < packing.bodies.size(); ++i)

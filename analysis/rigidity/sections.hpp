@@ -18,6 +18,4 @@ std::vector<Table> clusters_tables(const AnalysisInput& input, const AnalysisOpt
 std::vector<Table> modes_tables(const AnalysisInput& input, const AnalysisOptions& options);
 std::vector<Table> bases_tables(const AnalysisInput& input, const AnalysisOptions& options);
 
-const char* name_of(NetworkLaw law);  // as --law has it
-
 }  // namespace isostat

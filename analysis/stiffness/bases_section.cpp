@@ -30,7 +30,7 @@ struct Question {
 };
 
 Question question(const AnalysisInput& input, const AnalysisOptions& options) {
-  const Packing<2>& packing = input.planar("bases");
+  const Packing<2>& packing = input.packing();
   const NetworkLaw law = input.network_law(options);
   return {packing, law, options.cell_free, static_cast<std::size_t>(options.most_vectors),
           rigidity_matrix(packing, law, options.cell_free)};

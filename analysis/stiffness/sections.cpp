@@ -26,16 +26,6 @@ Json stiffness_of(const LawParameters& law) {
           {"distant", law.attraction_range > 0 ? Json(-law.attraction / law.attraction_range) : Json(nullptr)}};
 }
 
-// The state's law fills only the axes it has; --law may ask for rows that it gives no stiffness.
-LawParameters law_for_rows(const AnalysisInput& input, NetworkLaw network_law, std::string_view section) {
-  const LawParameters law = law_of(input);
-  if (network_law != NetworkLaw::frictionless && !(law.tangential_stiffness > 0))
-    refuse_section(input, section, "the law of the state has no tangential stiffness; use --law frictionless");
-  if (network_law == NetworkLaw::rolling && !(law.rolling_stiffness > 0))
-    refuse_section(input, section, "the law of the state has no rolling stiffness; use --law friction");
-  return law;
-}
-
 std::string explain_floppy(const ExactRank& r) {
   if (r.mechanisms == 0) return "rigid: no mechanism beyond the trivial motions and the rattlers";
   return "floppy: K = " + std::to_string(r.floppy) + ", " + std::to_string(r.mechanisms) + " mechanisms, see clusters";
@@ -62,9 +52,9 @@ Json described(const Moduli& m) {
 }  // namespace
 
 Json stiffness_section(const AnalysisInput& input, const AnalysisOptions& options) {
-  const Packing<2>& packing = input.planar("stiffness");
+  const Packing<2>& packing = input.packing();
   const NetworkLaw network_law = input.network_law(options);
-  const LawParameters law = law_for_rows(input, network_law, "stiffness");
+  const LawParameters law = law_of(input);
   const ExactRank rank = exact_rank(packing, network_law, options.cell_free);
   const RigidityMatrix g = rigidity_matrix(packing, network_law, options.cell_free);
   const std::vector<double> k = row_stiffness(packing, g, law);
@@ -92,10 +82,9 @@ Json stiffness_section(const AnalysisInput& input, const AnalysisOptions& option
 }
 
 Json moduli_section(const AnalysisInput& input, const AnalysisOptions& options) {
-  const Packing<2>& packing = input.planar("moduli");
-  if (!packing.cell) refuse_section(input, "moduli", "elastic moduli need a periodic cell");
+  const Packing<2>& packing = input.packing();
   const NetworkLaw network_law = input.network_law(options);
-  const LawParameters law = law_for_rows(input, network_law, "moduli");
+  const LawParameters law = law_of(input);
   const ExactRank rank = exact_rank(packing, network_law, false);
   Json section = {{"tensor", nullptr}, {"floppy", rank.mechanisms > 0}, {"explanation", explain_floppy(rank)}};
   try {
@@ -118,9 +107,9 @@ Json moduli_section(const AnalysisInput& input, const AnalysisOptions& options) 
 }
 
 Json modes_section(const AnalysisInput& input, const AnalysisOptions& options) {
-  const Packing<2>& packing = input.planar("modes");
+  const Packing<2>& packing = input.packing();
   const NetworkLaw network_law = input.network_law(options);
-  const LawParameters law = law_for_rows(input, network_law, "modes");
+  const LawParameters law = law_of(input);
   Json section{{"omega", nullptr}};
   try {
     const VibrationModes modes = vibration_modes(packing, network_law, law, kReportedModes, false);
@@ -131,7 +120,6 @@ Json modes_section(const AnalysisInput& input, const AnalysisOptions& options) {
     section["reason"] = e.what();
   }
   if (!options.prestress) return section;
-  if (!read_forces(input).known) refuse_section(input, "modes", "--prestress needs the forces of the links");
   try {
     const PrestressedModes modes = prestressed_modes(packing, network_law, law, kReportedModes);
     Json omega_squared = Json::array();
@@ -148,10 +136,9 @@ Json modes_section(const AnalysisInput& input, const AnalysisOptions& options) {
 }
 
 std::vector<Table> modes_tables(const AnalysisInput& input, const AnalysisOptions& options) {
-  const Packing<2>& packing = input.planar("modes");
+  const Packing<2>& packing = input.packing();
   const NetworkLaw network_law = input.network_law(options);
-  const VibrationModes modes =
-      vibration_modes(packing, network_law, law_for_rows(input, network_law, "modes"), kTabulatedModes, false);
+  const VibrationModes modes = vibration_modes(packing, network_law, law_of(input), kTabulatedModes, false);
   Table density{"modes.density", {"omega", "modes_below"}, {}};
   for (std::size_t k = 0; k < modes.omega.size(); ++k)
     density.rows.push_back({modes.omega[k], static_cast<double>(modes.zero_modes) + static_cast<double>(k) + 1});

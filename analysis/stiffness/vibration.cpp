@@ -10,9 +10,7 @@
 
 namespace isostat {
 
-LawParameters law_of(const AnalysisInput& input) {
-  return input.state && input.state->law.normal_stiffness > 0 ? input.state->law : default_network_law();
-}
+LawParameters law_of(const AnalysisInput& input) { return input.has_law() ? input.state.law : default_network_law(); }
 
 std::vector<double> dof_masses(const Packing<2>& packing, NetworkLaw network_law) {
   std::vector<double> mass;

@@ -7,7 +7,6 @@
 #include "analysis/structure/fit_json.hpp"
 #include "analysis/structure/scattering_section.hpp"
 #include "analysis/structure/sections.hpp"
-#include "dem/input_error.hpp"
 #include "geometry/pores.hpp"
 
 namespace isostat {
@@ -57,10 +56,8 @@ Json mass_radius(const CorrelationCurve& curve, double low, double high) {
 }  // namespace
 
 Json dacf_section(const AnalysisInput& input, const AnalysisOptions&) {
-  const auto& packing = input.planar("dacf");
+  const auto& packing = input.packing();
   const auto& b = packing.bodies;
-  if (!packing.cell) refuse_section(input, "dacf", "needs a periodic cell: C(r) averages over it");
-  if (b.size() == 0) refuse_section(input, "dacf", "needs at least one grain");
   const double diameter = grain_size(input);
   const double shorter = std::min(packing.cell->length[0], packing.cell->length[1]);
   const auto curve = density_correlation(b.position, b.radius, *packing.cell, distances(diameter, shorter / 2));

@@ -34,6 +34,14 @@ void pad(Json& array, std::size_t size, bool in_front, const Json& filler) {
   array = std::move(padded);
 }
 
+std::vector<double> numbers(const Json& j) {
+  std::vector<double> out;
+  for (const auto& v : j) out.push_back(v.is_number() ? v.get<double>() : std::numeric_limits<double>::quiet_NaN());
+  return out;
+}
+
+}  // namespace
+
 bool align_scattering(std::vector<Json>& sections) {
   const Json edges = longest(sections, "k_edges");
   for (const auto& s : sections) {
@@ -62,22 +70,7 @@ bool align_dacf(std::vector<Json>& sections) {
   return true;
 }
 
-std::vector<double> numbers(const Json& j) {
-  std::vector<double> out;
-  for (const auto& v : j) out.push_back(v.is_number() ? v.get<double>() : std::numeric_limits<double>::quiet_NaN());
-  return out;
-}
-
-}  // namespace
-
-bool align_curves(const std::string& key, std::vector<Json>& sections) {
-  if (sections.empty()) return false;
-  if (key == "scattering") return align_scattering(sections);
-  return key == "dacf" && align_dacf(sections);
-}
-
-void add_pooled(const std::string& key, const std::vector<Json>& aligned, Json& merged) {
-  if (key != "scattering") return;
+Json pooled_scattering(const std::vector<Json>& aligned) {
   std::vector<IntensityCurve> curves;
   double limit = std::numeric_limits<double>::infinity();
   for (const auto& s : aligned) {
@@ -86,7 +79,7 @@ void add_pooled(const std::string& key, const std::vector<Json>& aligned, Json& 
     limit = std::min(limit, s["fit"]["k_limit"].get<double>());
   }
   const auto pooled = pooled_intensity(curves);
-  merged["pooled"] = scattering_json(pooled, fit_curve(pooled, 0, limit), limit);
+  return scattering_json(pooled, fit_curve(pooled, 0, limit), limit);
 }
 
 }  // namespace isostat

@@ -60,7 +60,7 @@ nlohmann::ordered_json distributions(const Pores& pores) {
 }  // namespace
 
 nlohmann::ordered_json pores_section(const AnalysisInput& input, const AnalysisOptions& options) {
-  const auto& packing = input.planar("pores");
+  const auto& packing = input.packing();
   const double tolerance = options.gap_tolerance.value_or(0);
   const auto pores = pores_of(packing, {.gap_tolerance = tolerance});
   nlohmann::ordered_json json;

@@ -32,7 +32,6 @@ RunRecord record_of(const State& state) {
   record.certified = state.certificate.equilibrated;
   record.hash = physical_hash(state);
   AnalysisInput input;
-  input.packing = state.packing;
   input.state = state;
   input.links_given = true;
   const Json counts = analyze(input, {}, {"counts"}).at("counts");

@@ -82,10 +82,11 @@ State state_from_file(const Scene& scene, std::uint64_t seed) {
   const std::string& path = scene.grains.file;
   PackingFile file = read_packing(path);
   if (file.packing_3d) throw InputError(path, 0, "grains.file", path, "a packing of disks is wanted; this one is 3D");
-  if (!file.packing.cell) throw InputError(path, 0, "grains.file", path, "a packing with a periodic cell is wanted");
-  if (file.packing.bodies.size() == 0) throw InputError(path, 0, "grains.file", path, "it holds no grain");
+  Packing<2>& packing = file.state.packing;
+  if (!packing.cell) throw InputError(path, 0, "grains.file", path, "a packing with a periodic cell is wanted");
+  if (packing.bodies.size() == 0) throw InputError(path, 0, "grains.file", path, "it holds no grain");
   State state = without_bodies(scene, seed);
-  state.packing = std::move(file.packing);
+  state.packing = std::move(packing);
   set_disk_inertia(state.packing.bodies);
   if (!file.links_given) state.packing.links.clear();
   const Bodies<2>& b = state.packing.bodies;

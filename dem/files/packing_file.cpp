@@ -23,7 +23,7 @@ void set_packing(PackingFile& file, Packing<D> packing, const std::string& path)
   if (const auto fault = packing_fault(packing))
     throw InputError(path, 0, fault->field, "", fault->rule + "; check the units");
   if constexpr (D == 2)
-    file.packing = std::move(packing);
+    file.state = foreign_state(std::move(packing));
   else
     file.packing_3d = std::move(packing);
 }
@@ -196,7 +196,6 @@ PackingFile read_packing(const std::string& given_path, const PackingReading& re
     case PackingFormat::state:
       if (reading.box) throw InputError(path, 0, "--box", "", "a state has its own cell; leave --box out");
       file.state = read_state(path);
-      file.packing = file.state->packing;
       file.links_given = true;
       break;
     case PackingFormat::network:

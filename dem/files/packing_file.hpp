@@ -13,9 +13,8 @@ enum class PackingFormat { state, network, dump, csv };
 
 struct PackingFile {
   PackingFormat format = PackingFormat::state;
-  Packing<2> packing;                    // of a planar file
-  std::optional<Packing<3>> packing_3d;  // of a 3D file; `packing` is then empty
-  std::optional<State> state;            // of a state file; `packing` is a copy of its packing
+  State state;                           // of a planar file; of another format than a state: foreign_state()
+  std::optional<Packing<3>> packing_3d;  // of a 3D file; `state` then has no grains
   bool links_given = false;              // the file lists its links; false: found by touching
 };
 

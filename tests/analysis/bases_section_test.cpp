@@ -19,17 +19,15 @@ AnalysisInput with_forces(double coordination, bool forces) {
   o.columns = o.rows = 6, o.coordination = coordination, o.seed = 5;
   AnalysisInput input;
   input.path = "test";
-  input.packing = random_network(o);
+  input.state.packing = random_network(o);
   input.links_given = true;
   if (!forces) return input;
-  for (std::size_t l = 0; l < input.packing.links.size(); ++l) {
-    input.packing.links[l].normal_force = 1 + std::sin(static_cast<double>(l));
-    input.packing.links[l].tangential_force = 0.2 * std::cos(static_cast<double>(l));
+  for (std::size_t l = 0; l < input.packing().links.size(); ++l) {
+    input.state.packing.links[l].normal_force = 1 + std::sin(static_cast<double>(l));
+    input.state.packing.links[l].tangential_force = 0.2 * std::cos(static_cast<double>(l));
   }
-  input.state.emplace();
-  input.state->packing = input.packing;
-  input.state->law.normal_stiffness = input.state->law.tangential_stiffness = 1e3;
-  input.state->law.friction = 0.5;
+  input.state.law.normal_stiffness = input.state.law.tangential_stiffness = 1e3;
+  input.state.law.friction = 0.5;
   return input;
 }
 
@@ -59,10 +57,10 @@ TEST(BasesSection, TablesHoldNullVectorsOfG) {
     EXPECT_EQ(json["self_stress"]["given"], states);
     EXPECT_TRUE(json["split"].is_null());
 
-    const RigidityMatrix g = rigidity_matrix(input.packing, NetworkLaw::friction, true);
+    const RigidityMatrix g = rigidity_matrix(input.packing(), NetworkLaw::friction, true);
     const auto tables = bases_tables(input, options);
     std::map<std::int64_t, std::size_t> grain_of_id;
-    for (std::size_t i = 0; i < input.packing.bodies.size(); ++i) grain_of_id[input.packing.bodies.id[i]] = i;
+    for (std::size_t i = 0; i < input.packing().bodies.size(); ++i) grain_of_id[input.packing().bodies.id[i]] = i;
     std::vector<std::vector<double>> u(static_cast<std::size_t>(modes),
                                        std::vector<double>(static_cast<std::size_t>(g.columns()), 0.0));
     for (const auto& row : named(tables, "floppy_modes").rows)
@@ -76,17 +74,17 @@ TEST(BasesSection, TablesHoldNullVectorsOfG) {
       EXPECT_DOUBLE_EQ(largest(u[m]), 1);
       EXPECT_LT(largest(g.link_velocities(u[m])), 1e-9);
       std::size_t moving = 0;
-      for (std::size_t i = 0; i < input.packing.bodies.size(); ++i)
+      for (std::size_t i = 0; i < input.packing().bodies.size(); ++i)
         moving += std::abs(u[m][3 * i]) > 1e-9 || std::abs(u[m][3 * i + 1]) > 1e-9 || std::abs(u[m][3 * i + 2]) > 1e-9;
       EXPECT_EQ(json["floppy_modes"]["list"][m]["grains"], moving);
     }
 
     using Key = std::array<double, 4>;
     std::map<Key, std::size_t> link_of;
-    for (std::size_t l = 0; l < input.packing.links.size(); ++l) {
-      const auto& link = input.packing.links[l];
-      link_of[{static_cast<double>(input.packing.bodies.id[static_cast<std::size_t>(link.i)]),
-               static_cast<double>(input.packing.bodies.id[static_cast<std::size_t>(link.j)]),
+    for (std::size_t l = 0; l < input.packing().links.size(); ++l) {
+      const auto& link = input.packing().links[l];
+      link_of[{static_cast<double>(input.packing().bodies.id[static_cast<std::size_t>(link.i)]),
+               static_cast<double>(input.packing().bodies.id[static_cast<std::size_t>(link.j)]),
                static_cast<double>(link.shift[0]), static_cast<double>(link.shift[1])}] = l;
     }
     std::vector<std::map<std::size_t, std::array<double, 3>>> f(static_cast<std::size_t>(states));
@@ -112,10 +110,10 @@ TEST(BasesSection, SplitsTheForcesOfAState) {
   EXPECT_NEAR(load * load + self * self, all * all, 1e-10 * all * all);
   EXPECT_GT(self, 0.01 * all);
   const Table split = named(bases_tables(input, {}), "split");
-  ASSERT_EQ(split.rows.size(), input.packing.links.size());
+  ASSERT_EQ(split.rows.size(), input.packing().links.size());
   for (std::size_t l = 0; l < split.rows.size(); ++l) {
-    EXPECT_NEAR(split.rows[l][4] + split.rows[l][7], input.packing.links[l].normal_force, 1e-12);
-    EXPECT_NEAR(split.rows[l][5] + split.rows[l][8], input.packing.links[l].tangential_force, 1e-12);
+    EXPECT_NEAR(split.rows[l][4] + split.rows[l][7], input.packing().links[l].normal_force, 1e-12);
+    EXPECT_NEAR(split.rows[l][5] + split.rows[l][8], input.packing().links[l].tangential_force, 1e-12);
   }
 }
 
@@ -124,7 +122,7 @@ TEST(RigiditySections, LargeOnesLeaveSoftModesToThoseWhoAsk) {
   o.columns = o.rows = 84, o.coordination = 5.0;  // 21168 dofs
   AnalysisInput input;
   input.path = "test";
-  input.packing = random_network(o);
+  input.state.packing = random_network(o);
   AnalysisOptions options;
   const auto quick = rigidity_section(input, options)["certificate"]["near_null_singular_values"];
   EXPECT_TRUE(quick["values"].is_null());

@@ -88,31 +88,6 @@ TEST(Ensemble, VerdictsAndWordsAreKeptWhenTheyAgree) {
   EXPECT_EQ(merged["counts"]["law"], "rolling");
 }
 
-bool shift_to_common_start(std::vector<Json>& parts) {
-  for (Json& p : parts)
-    if (p["z"].size() > 3) return false;
-  for (Json& p : parts)
-    while (p["z"].size() < 3) p["z"].insert(p["z"].begin(), nullptr);
-  return true;
-}
-Json sum_of_sizes(const std::vector<Json>& parts) {
-  std::size_t sum = 0;
-  for (const Json& p : parts) sum += p["z"].size();
-  return sum;
-}
-
-TEST(Ensemble, SectionsMayAlignAndPoolThemselves) {
-  const std::vector<Section> table{{"counts", nullptr, nullptr, shift_to_common_start, sum_of_sizes}};
-  const auto one = [](Json z) { return report("a", {{"z", std::move(z)}}); };
-  const Json merged = merge_reports({one({1.0, 2.0}), one({4.0, 5.0, 6.0})}, table)["counts"];
-  EXPECT_DOUBLE_EQ(merged["z"][0]["mean"], 4);
-  EXPECT_DOUBLE_EQ(merged["z"][2]["mean"], 4);
-  EXPECT_EQ(merged["pooled"], 6);
-  const Json apart = merge_reports({one({1.0}), one({1.0, 2.0, 3.0, 4.0})}, table)["counts"];
-  ASSERT_TRUE(apart.is_array());
-  EXPECT_EQ(apart[0]["z"], Json({1.0}));
-}
-
 std::string csv_of(const Json& r, const std::string& name) {
   for (const auto& [file, content] : report_as_csv(r))
     if (file == name) return content;

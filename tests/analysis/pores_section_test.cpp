@@ -8,6 +8,7 @@
 #include "dem/input_error.hpp"
 #include "tests/support/disk_packings.hpp"
 #include "tests/support/packing_input.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace isostat {
 namespace {
@@ -51,7 +52,7 @@ TEST(pores_section, takes_the_gap_tolerance_and_works_without_a_cell) {
   options.gap_tolerance = 3e-4;
   EXPECT_EQ(pores_section(input_of(d), options)["count"], 9);
   auto open = input_of(d);
-  open.packing.cell.reset();  // 3 x 3 disks in the plane enclose four pores
+  open.state.packing.cell.reset();  // 3 x 3 disks in the plane enclose four pores
   EXPECT_EQ(pores_section(open, options)["count"], 4);
   EXPECT_EQ(pores_section(open, options)["percolating"], 0);
 }
@@ -59,7 +60,7 @@ TEST(pores_section, takes_the_gap_tolerance_and_works_without_a_cell) {
 TEST(pores_section, refuses_3d) {
   AnalysisInput input;
   input.packing_3d.emplace();
-  EXPECT_THROW(pores_section(input, {}), InputError);
+  EXPECT_EQ(oracle::refusal(input, "pores"), "is defined for packings in the plane; this one is in 3D");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,7 @@
 #include "tests/oracle/union_mesh.hpp"
 #include "tests/support/disk_packings.hpp"
 #include "tests/support/packing_input.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace isostat {
 namespace {
@@ -101,20 +103,30 @@ TEST(scattering, section_has_the_keys_of_the_contract) {
 TEST(scattering, refuses_what_it_does_not_apply_to) {
   const auto d = oracle::rsa_disks(20, {7, 7}, 0.25, 0.5, 1);
   auto open = input_of(d);
-  open.packing.cell.reset();
-  EXPECT_THROW(scattering_section(open, {}), InputError);
-  EXPECT_THROW(dacf_section(open, {}), InputError);
+  open.state.packing.cell.reset();
+  EXPECT_EQ(oracle::refusal(open, "scattering"), "needs a periodic cell: I(k) lives on its reciprocal lattice");
+  EXPECT_EQ(oracle::refusal(open, "dacf"), "needs a periodic cell: C(r) averages over it");
   AnalysisOptions options;
   options.k_max = 1e7;
   EXPECT_THROW(scattering_section(input_of(d), options), InputError);
   options.k_max = 0.1;
   EXPECT_THROW(scattering_section(input_of(d), options), InputError);
-  EXPECT_THROW(scattering_section(input_of(Disks{{{1, 1}}, {}, {}}), {}), InputError);
+  EXPECT_EQ(oracle::refusal(input_of(Disks{{{1, 1}}, {}, {}}), "scattering"), "needs at least one grain");
+}
+
+// A foreign packing stays in its own units, also when it is kept as a state.
+TEST(scattering, length_a_is_1_in_reduced_units_only) {
+  auto input = input_of(oracle::rsa_disks(20, {7, 7}, 0.2, 0.25, 1));
+  const double largest =
+      2 * *std::max_element(input.packing().bodies.radius.begin(), input.packing().bodies.radius.end());
+  EXPECT_EQ(grain_size(input), largest);
+  input.state.law.normal_stiffness = 1e5;
+  EXPECT_EQ(grain_size(input), 1);
 }
 
 // Reports of samples of different size merged as `analyze` merges them.
 TEST(scattering, samples_of_different_size_line_up_and_pool) {
-  std::vector<AnalysisInput> inputs;
+  std::vector<Disks> packings;
   std::vector<nlohmann::ordered_json> reports;
   AnalysisOptions options;
   options.k_max = 10;
@@ -122,8 +134,8 @@ TEST(scattering, samples_of_different_size_line_up_and_pool) {
   for (const double side : {15.0, 22.0, 40.0}) {
     auto d = oracle::rsa_disks(std::size_t(side * side / 2), {side, side}, 0.25, 0.5, 1);
     d.radius[0] = 0.5;  // one grain size for all
-    inputs.push_back(input_of(d));
-    reports.push_back(analyze(inputs.back(), options, {"scattering", "dacf"}));
+    packings.push_back(d);
+    reports.push_back(analyze(input_of(d), options, {"scattering", "dacf"}));
     for (const auto& m : reports.back()["scattering"]["modes"]) modes += m.get<std::int64_t>();
   }
   const auto longest = reports[2]["scattering"]["k_edges"];
@@ -140,20 +152,23 @@ TEST(scattering, samples_of_different_size_line_up_and_pool) {
               1e-15);
   EXPECT_EQ(merged["dacf"]["C"].size(), reports[2]["dacf"]["C"].size());
 
-  const auto direct = scattering_ensemble(inputs, options);
+  std::vector<IntensityCurve> curves;
+  for (const Disks& d : packings)
+    curves.push_back(average_intensity(disk_transform(d.centre, d.radius, d.cell, {.k_max = options.k_max}),
+                                       longest.get<std::vector<double>>()));
+  const IntensityCurve direct = pooled_intensity(curves);
   std::int64_t together = 0;
   for (std::size_t b = 0; b < pooled["I"].size(); ++b) {
     together += pooled["modes"][b].get<std::int64_t>();
-    EXPECT_EQ(pooled["modes"][b], direct["modes"][b]);
+    EXPECT_EQ(pooled["modes"][b], direct.modes[b]);
     if (pooled["modes"][b].get<int>() < 2) continue;
-    EXPECT_NEAR(pooled["I"][b].get<double>(), direct["I"][b].get<double>(), 1e-12 * direct["I"][b].get<double>());
-    EXPECT_NEAR(pooled["sigma"][b].get<double>(), direct["sigma"][b].get<double>(),
-                1e-9 * direct["I"][b].get<double>());
+    EXPECT_NEAR(pooled["I"][b].get<double>(), direct.intensity[b], 1e-12 * direct.intensity[b]);
+    EXPECT_NEAR(pooled["sigma"][b].get<double>(), direct.sigma[b], 1e-9 * direct.intensity[b]);
   }
   EXPECT_EQ(together, modes);
 
   options.k_max = 9;  // other bins: kept apart
-  reports[0] = analyze(inputs[0], options, {"scattering"});
+  reports[0] = analyze(input_of(packings[0]), options, {"scattering"});
   EXPECT_FALSE(merge_reports(reports)["scattering"].contains("pooled"));
 }
 

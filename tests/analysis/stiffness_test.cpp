@@ -14,6 +14,7 @@
 #include "analysis/stiffness/vibration.hpp"
 #include "dem/files/network_file.hpp"
 #include "tests/support/random_network.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace isostat {
 namespace {
@@ -180,7 +181,7 @@ TEST(SoftModes, SmallestSingularValueOfAnOverlappingTriangle) {
 TEST(RigiditySections, FollowTheContract) {
   AnalysisInput input;
   input.path = "k23.net";
-  input.packing = cluster("k23");
+  input.state.packing = cluster("k23");
   const auto rigidity = rigidity_section(input, {});
   for (const char* key :
        {"law", "cell", "N_f", "M", "rank", "H", "K", "trivial", "rattler_modes", "mechanisms", "method", "certificate"})
@@ -193,14 +194,29 @@ TEST(RigiditySections, FollowTheContract) {
   const auto stiffness = stiffness_section(input, {});
   EXPECT_EQ(stiffness["inertia"], nlohmann::ordered_json::parse("[0, 4, 11]"));
   EXPECT_EQ(stiffness["positive_definite"], false);
-  EXPECT_THROW(moduli_section(input, {}), std::exception);
+  EXPECT_EQ(oracle::refusal(input, "moduli"), "needs a periodic cell: elastic moduli are those of its strains");
+}
+
+TEST(RigiditySections, RowsWithoutStiffnessAreRefused) {
+  AnalysisInput input;
+  input.path = "state.h5";
+  input.state.packing = cluster("k23");
+  input.state.law.normal_stiffness = 1e5;
+  AnalysisOptions options;
+  EXPECT_EQ(oracle::refusal(input, "stiffness"), "taken");  // a law without friction: no such rows
+  options.law = NetworkLaw::rolling;
+  EXPECT_EQ(oracle::refusal(input, "stiffness", options),
+            "the law of the state has no tangential stiffness; use --law frictionless");
+  input.state.law.tangential_stiffness = 1e5;
+  EXPECT_EQ(oracle::refusal(input, "stiffness", options),
+            "the law of the state has no rolling stiffness; use --law friction");
 }
 
 TEST(RigiditySections, DistantLinksMakeTheStiffnessIndefinite) {
   // Two disks and a distant link alone: one negative direction.
   AnalysisInput input;
   input.path = "distant.net";
-  input.packing = parse_network<2>("grain 0 0 0 .5\ngrain 1 1.0005 0 .5\ncontact 0 1 d\n", "distant.net").packing;
+  input.state.packing = parse_network<2>("grain 0 0 0 .5\ngrain 1 1.0005 0 .5\ncontact 0 1 d\n", "distant.net").packing;
   EXPECT_EQ(stiffness_section(input, {})["inertia"], nlohmann::ordered_json::parse("[1, 5, 0]"));
 }
 

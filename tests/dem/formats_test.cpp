@@ -85,9 +85,9 @@ TEST(Csv, RoundTripIsBitForBit) {
       const PackingFile file = read_packing(dir / name, reading);
       EXPECT_EQ(file.format, PackingFormat::csv);
       EXPECT_TRUE(file.links_given);
-      EXPECT_EQ(file.packing.cell->length, p.cell->length);
-      expect_same_motion(file.packing.bodies, p.bodies);
-      expect_same_links(file.packing.links, p.links);
+      EXPECT_EQ(file.state.packing.cell->length, p.cell->length);
+      expect_same_motion(file.state.packing.bodies, p.bodies);
+      expect_same_links(file.state.packing.links, p.links);
     }
   }
 }
@@ -115,14 +115,14 @@ TEST(Csv, ColumnsOfTheContract) {
 TEST(Csv, ForeignGrainsAloneFindTheirContacts) {
   TemporaryFolder dir;
   write_text_files({{dir / "g.csv", "r, id, y, x, colour\n0.5,7,0,0.25,red\n0.5,9,0,3.25,blue\n"}});
-  EXPECT_TRUE(read_packing(dir / "g.csv").packing.links.empty());
+  EXPECT_TRUE(read_packing(dir / "g.csv").state.packing.links.empty());
   PackingReading reading;
   reading.box = {4, 4};  // periodic: they touch across the edge
   const PackingFile file = read_packing(dir / "g.csv", reading);
   EXPECT_FALSE(file.links_given);
-  ASSERT_EQ(file.packing.links.size(), 1u);
-  EXPECT_EQ(file.packing.links[0].shift, (ImageShift<2>{-1, 0}));
-  EXPECT_EQ(file.packing.bodies.mass, (std::vector<double>{1, 1}));
+  ASSERT_EQ(file.state.packing.links.size(), 1u);
+  EXPECT_EQ(file.state.packing.links[0].shift, (ImageShift<2>{-1, 0}));
+  EXPECT_EQ(file.state.packing.bodies.mass, (std::vector<double>{1, 1}));
 }
 
 TEST(Csv, ContactsWithoutShiftsMeanTheNearestImage) {
@@ -131,7 +131,7 @@ TEST(Csv, ContactsWithoutShiftsMeanTheNearestImage) {
       {{dir / "g.grains.csv", "id,x,y,r\n1,0.25,0,0.5\n2,3.25,0,0.5\n"}, {dir / "g.contacts.csv", "i,j\n1,2\n"}});
   PackingReading reading;
   reading.box = {4, 4};
-  const Link<2> l = read_packing(dir / "g.csv", reading).packing.links.at(0);
+  const Link<2> l = read_packing(dir / "g.csv", reading).state.packing.links.at(0);
   EXPECT_EQ(l.shift, (ImageShift<2>{-1, 0}));
   EXPECT_DOUBLE_EQ(l.gap, 0);
 }
@@ -172,14 +172,14 @@ TEST(Dump, RoundTripIsBitForBit) {
     write_text_files({{dir / "p.dump", grains_dump(p, 12)}, {dir / "p.contacts.dump", links_dump(p, 12)}});
     const PackingFile file = read_packing(dir / "p.dump");
     EXPECT_EQ(file.format, PackingFormat::dump);
-    EXPECT_EQ(file.packing.cell.has_value(), periodic);
+    EXPECT_EQ(file.state.packing.cell.has_value(), periodic);
     if (periodic) {
-      EXPECT_EQ(file.packing.cell->length, p.cell->length);
+      EXPECT_EQ(file.state.packing.cell->length, p.cell->length);
     }
-    expect_same_motion(file.packing.bodies, p.bodies);
-    EXPECT_EQ(file.packing.bodies.mass, p.bodies.mass);
-    EXPECT_EQ(file.packing.bodies.inertia, p.bodies.inertia);
-    expect_same_links(file.packing.links, p.links);
+    expect_same_motion(file.state.packing.bodies, p.bodies);
+    EXPECT_EQ(file.state.packing.bodies.mass, p.bodies.mass);
+    EXPECT_EQ(file.state.packing.bodies.inertia, p.bodies.inertia);
+    expect_same_links(file.state.packing.links, p.links);
   }
   write_text_files({{dir / "s.dump", grains_dump(spheres(), 0)}, {dir / "s.contacts.dump", links_dump(spheres(), 0)}});
   const PackingFile file = read_packing(dir / "s.dump");
@@ -197,7 +197,7 @@ constexpr const char* kForeignDump =
 TEST(Dump, ReadsTheLastFrameInScaledCoordinates) {
   TemporaryFolder dir;
   write_text_files({{dir / "l.dump", kForeignDump}});
-  const Packing<2> p = read_packing(dir / "l.dump").packing;
+  const Packing<2> p = read_packing(dir / "l.dump").state.packing;
   EXPECT_EQ(p.cell->length, (Vec2{{4, 8}}));
   EXPECT_EQ(p.bodies.id, (std::vector<std::int64_t>{5, 6}));
   EXPECT_EQ(p.bodies.position[1], (Vec2{{1, 2}}));
@@ -306,13 +306,10 @@ TEST(PackingFile, StateRoundTrip) {
   write_state(foreign_state(p), dir / "p.h5");
   const PackingFile file = read_packing(dir / "p.h5");
   EXPECT_EQ(file.format, PackingFormat::state);
-  ASSERT_TRUE(file.state);
-  EXPECT_EQ(file.state->law.normal_stiffness, 0);
-  for (const Packing<2>* read : {&file.packing, &file.state->packing}) {
-    EXPECT_EQ(read->cell->length, p.cell->length);
-    expect_same_motion(read->bodies, p.bodies);
-    expect_same_links(read->links, p.links);
-  }
+  EXPECT_EQ(file.state.law.normal_stiffness, 0);
+  EXPECT_EQ(file.state.packing.cell->length, p.cell->length);
+  expect_same_motion(file.state.packing.bodies, p.bodies);
+  expect_same_links(file.state.packing.links, p.links);
   PackingReading reading;
   reading.box = {4, 4};
   EXPECT_THAT(faults_of(dir / "p.h5", reading), HasSubstr("has its own cell"));
@@ -325,7 +322,7 @@ TEST(PackingFile, BoxGoesOnlyToWhatHasNone) {
   PackingReading reading;
   reading.box = {4, 4};
   EXPECT_THAT(faults_of(dir / "c.net", reading), HasSubstr("has its own cell"));
-  const Packing<2> p = read_packing(dir / "i.net", reading).packing;
+  const Packing<2> p = read_packing(dir / "i.net", reading).state.packing;
   EXPECT_EQ(p.links.at(0).shift, (ImageShift<2>{-1, 0}));
   EXPECT_DOUBLE_EQ(p.links.at(0).gap, -1);
   reading.box = {4, 4, 4};

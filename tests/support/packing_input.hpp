@@ -8,12 +8,13 @@ namespace isostat::oracle {
 inline AnalysisInput input_of(const Disks& d) {
   AnalysisInput input;
   input.path = "test";
-  input.packing.cell = d.cell;
-  input.packing.bodies.resize(d.centre.size());
+  input.state.packing.cell = d.cell;
+  Bodies<2>& bodies = input.state.packing.bodies;
+  bodies.resize(d.centre.size());
   for (std::size_t i = 0; i < d.centre.size(); ++i) {
-    input.packing.bodies.id[i] = static_cast<std::int64_t>(i);
-    input.packing.bodies.position[i] = d.centre[i];
-    input.packing.bodies.radius[i] = d.radius[i];
+    bodies.id[i] = static_cast<std::int64_t>(i);
+    bodies.position[i] = d.centre[i];
+    bodies.radius[i] = d.radius[i];
   }
   return input;
 }
