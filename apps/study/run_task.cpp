@@ -1,7 +1,5 @@
 #include "apps/study/run_task.hpp"
 
-#include <dlfcn.h>
-
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -29,12 +27,6 @@ RunRecord adopted(const State& state) {
     record.reason = "the state is not at the end of its last stage; there is no record of its run";
   }
   return record;
-}
-
-// The sparse solvers would take all cores for a run's analysis. They bring their OpenMP along; without it there is
-// nothing to restrain.
-void use_one_thread() {
-  if (void* symbol = ::dlsym(RTLD_DEFAULT, "omp_set_num_threads")) reinterpret_cast<void (*)(int)>(symbol)(1);
 }
 
 // Tells the parent how far the run is, a few times a second.
@@ -104,7 +96,6 @@ bool is_settled(const StudyRun& run, const StudyAnalysis& analysis) {
 }
 
 int do_run(const StudyRun& run, const StudyAnalysis& analysis, bool tell_progress) {
-  use_one_thread();
   auto record = settled_record(run);
   if (!record) record = make_state(run, tell_progress);
   if (record->status == RunStatus::pending) return exit_interrupted;

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "apps/study/parameter_sets.hpp"
+#include "apps/study/study_file.hpp"
 #include "dem/scene/keys.hpp"
 #include "dem/scene/text.hpp"
 
@@ -19,6 +21,17 @@ std::string unquoted(std::string text) {
 }
 
 }  // namespace
+
+Study read_study(const std::string& path) {
+  StudyFaults faults(path);
+  const StudyFile file = read_study_file(faults);
+  Study study;
+  study.path = path;
+  study.analysis = file.analysis;
+  if (faults.none()) make_parameter_sets(file, study, faults);
+  faults.raise();
+  return study;
+}
 
 std::string StudyRun::state(std::optional<std::size_t> stage) const {
   return stage && *stage + 1 == set->scene.stages.size() ? state() : base + stage_suffix(stage) + ".h5";

@@ -1,48 +1,21 @@
-// The study's TOML file: rows, grid and seeds -> parameter sets, with every fault of the file and of the scenes it
-// makes.
+// The study's TOML file: rows, grid and seeds, with every fault of its own keys.
+#include "apps/study/study_file.hpp"
+
 #include <toml++/toml.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <functional>
-#include <optional>
-#include <set>
 #include <sstream>
-#include <tuple>
 
 #include "analysis/report.hpp"
-#include "apps/study/study.hpp"
 #include "dem/files/atomic_file.hpp"
-#include "dem/input_error.hpp"
-#include "dem/scene/file.hpp"
 #include "dem/scene/keys.hpp"
 #include "dem/scene/suggestion.hpp"
 #include "dem/scene/text.hpp"
 
 namespace isostat {
 namespace {
-
-constexpr std::size_t kMostRuns = 1'000'000;
-constexpr const char* kStatesKey = "output.stages";  // scene key that keeps a state after each stage
-
-struct Setting {
-  std::string key, value;
-  int line = 0;
-};
-
-// One [[row]], before the grid multiplies it.
-struct Row {
-  std::string name, scene;
-  std::vector<Setting> settings;
-  std::vector<std::uint64_t> seeds;
-  std::vector<std::size_t> stages;
-  int line = 0;
-};
-
-struct GridAxis {
-  std::string key;
-  std::vector<Setting> choices;
-};
 
 std::string literal(const toml::node& node) {
   if (const auto* real = node.as_floating_point()) return real_text(real->get());
@@ -58,48 +31,27 @@ std::string literal(const toml::node& node) {
   return out.str();
 }
 
-constexpr std::string_view kNameLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_+=";
-
-bool is_safe_name(const std::string& name) {
-  return !name.empty() && name.size() <= 150 && name.front() != '.' && name.front() != '-' &&
-         name.find_first_not_of(kNameLetters) == std::string::npos;
-}
-
-bool keeps_stage_states() {
-  return std::any_of(scene_keys().begin(), scene_keys().end(), [](const SceneKey& k) { return k.name == kStatesKey; });
-}
-
 class StudyParser {
  public:
-  explicit StudyParser(std::string path) : path_(std::move(path)) {}
+  explicit StudyParser(StudyFaults& faults) : faults_(faults) {}
 
-  Study read() {
-    const std::string text = read_whole_file(path_);
+  StudyFile read() {
+    const std::string text = read_whole_file(faults_.path());
     try {
-      table_ = toml::parse(text, std::string_view(path_));
+      table_ = toml::parse(text, std::string_view(faults_.path()));
     } catch (const toml::parse_error& error) {
-      throw InputError(path_, static_cast<int>(error.source().begin.line), "", "",
+      throw InputError(faults_.path(), static_cast<int>(error.source().begin.line), "", "",
                        "not valid TOML: " + std::string(error.description()));
     }
-    Study study;
-    study.path = path_;
-    read_top(study);
+    read_top();
     read_rows();
     read_grid();
-    if (faults_.empty()) make_sets(study);
-    if (!faults_.empty()) throw InputError(in_order());
-    return study;
+    return std::move(file_);
   }
 
  private:
   void fault(int line, const std::string& key, const std::string& value, const std::string& rule) {
-    if (told_.insert({path_, line, key, value, rule}).second) faults_.push_back({path_, line, key, value, rule});
-  }
-  std::vector<Fault> in_order() {
-    std::stable_sort(faults_.begin(), faults_.end(), [this](const Fault& a, const Fault& b) {
-      return std::pair(a.file != path_, a.line) < std::pair(b.file != path_, b.line);
-    });
-    return faults_;
+    faults_.add(line, key, value, rule);
   }
   static int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
 
@@ -112,7 +64,7 @@ class StudyParser {
 
   // --- the keys of the study itself ---
 
-  void read_top(Study& study) {
+  void read_top() {
     const std::vector<std::string> known{"scene", "seeds", "stages", "analyze", "analysis", "set", "row", "grid"};
     std::vector<std::string> sections{"counts"};
     for (const auto& [name, node] : table_) {
@@ -126,14 +78,14 @@ class StudyParser {
       } else if (key == "analyze") {
         sections = sections_of(node, key);
       } else if (key == "analysis") {
-        read_options(node, study.analysis.options);
+        read_options(node, file_.analysis.options);
       } else if (key == "set") {
         read_settings(node, key, set_);
       } else if (key != "row" && key != "grid") {
         unknown(line_of(node), key, known);
       }
     }
-    study.analysis.sections = sections;
+    file_.analysis.sections = sections;
   }
 
   std::string text_of(const toml::node& node, const std::string& key) {
@@ -204,14 +156,9 @@ class StudyParser {
       const auto text = value.value<std::string>();
       const auto number = value.value<double>();
       if (leaf == "law") {
-        if (text == "frictionless")
-          options.law = NetworkLaw::frictionless;
-        else if (text == "friction")
-          options.law = NetworkLaw::friction;
-        else if (text == "rolling")
-          options.law = NetworkLaw::rolling;
-        else
-          fault(line_of(value), key, literal(value), "one of \"friction\", \"frictionless\", \"rolling\"");
+        options.law = network_law_named(text.value_or(""));
+        if (!options.law)
+          fault(line_of(value), key, literal(value), "one of \"frictionless\", \"friction\", \"rolling\"");
       } else if (leaf == "cell") {
         options.cell_free = text == "free";
         if (text != "free" && text != "fixed") fault(line_of(value), key, literal(value), "one of \"fixed\", \"free\"");
@@ -261,8 +208,8 @@ class StudyParser {
     if (node && (!array || array->empty() || !array->is_array_of_tables()))
       return fault(line_of(*node), "row", "", "rows are an array of tables: write [[row]]");
     for (std::size_t k = 0; array && k < array->size(); ++k) read_row(*array->get_as<toml::table>(k));
-    if (!node) rows_.push_back({std::filesystem::path(scene_).stem().string(), scene_, set_, seeds_, stages_, 0});
-    for (const Row& row : rows_) {
+    if (!node) file_.rows.push_back({std::filesystem::path(scene_).stem().string(), scene_, set_, seeds_, stages_, 0});
+    for (const StudyRow& row : file_.rows) {
       if (row.scene.empty() && !table_.contains("scene"))
         fault(row.line, "scene", "", "missing: the scene file, at the top or in the row");
       if (row.seeds.empty() && !table_.contains("seeds"))
@@ -272,7 +219,7 @@ class StudyParser {
 
   void read_row(const toml::table& table) {
     const std::vector<std::string> known{"name", "scene", "seeds", "stages"};
-    Row row{"", scene_, {}, seeds_, stages_, line_of(table)};
+    StudyRow row{"", scene_, {}, seeds_, stages_, line_of(table)};
     for (const auto& [name, node] : table) {
       const std::string key(name.str());
       if (key == "name") {
@@ -299,7 +246,7 @@ class StudyParser {
         all.push_back(s);
     all.insert(all.end(), row.settings.begin(), row.settings.end());
     row.settings = std::move(all);
-    rows_.push_back(std::move(row));
+    file_.rows.push_back(std::move(row));
   }
 
   void read_grid() {
@@ -317,125 +264,32 @@ class StudyParser {
           fault(line_of(choice), "grid." + key, text, "given twice");
         axis.choices.push_back({key, text, line_of(choice)});
       }
-      for (const Row& row : rows_)
+      for (const StudyRow& row : file_.rows)
         for (const Setting& s : row.settings)
           if (s.key == key)
             fault(line_of(value), "grid." + key, "",
                   "also set in line " + std::to_string(s.line) + ": which one is meant?");
-      grid_.push_back(std::move(axis));
+      file_.grid.push_back(std::move(axis));
     });
   }
 
-  // --- parameter sets ---
-
-  // The part of a name that tells a choice: friction0.15, or the whole key where its last component is not enough.
-  std::string name_part(const GridAxis& axis, std::size_t choice) const {
-    const auto leaf = [](const std::string& key) { return key.substr(key.rfind('.') + 1); };
-    const auto same = std::count_if(grid_.begin(), grid_.end(),
-                                    [&](const GridAxis& other) { return leaf(other.key) == leaf(axis.key); });
-    std::string text = (same > 1 ? axis.key : leaf(axis.key)) + axis.choices[choice].value;
-    std::string safe;
-    for (const char c : text)
-      if (c != '"') safe += kNameLetters.find(c) == std::string_view::npos ? '_' : c;
-    return "-" + safe;
-  }
-
-  void make_sets(Study& study) {
-    std::size_t points = 1;
-    for (const GridAxis& axis : grid_) points = std::min(points * axis.choices.size(), kMostRuns + 1);
-    if (points * rows_.size() > kMostRuns)
-      return fault(0, "grid", "", "makes more than " + std::to_string(kMostRuns) + " parameter sets");
-    std::set<std::string> names;
-    for (const Row& row : rows_)
-      for (std::size_t point = 0; point < points; ++point) {
-        std::string name = row.name;
-        std::vector<Setting> settings = row.settings;
-        std::size_t rest = point, block = points;
-        for (const GridAxis& axis : grid_) {  // the last axis runs fastest
-          block /= axis.choices.size();
-          settings.push_back(axis.choices[rest / block]);
-          name += name_part(axis, rest / block);
-          rest %= block;
-        }
-        add_set(study, row, name, std::move(settings));
-        const ParameterSet& set = study.sets.back();
-        bool fresh = names.insert(set.name).second;
-        for (const std::size_t stage : set.stages)
-          fresh = names.insert(set.name + ".stage" + std::to_string(stage)).second && fresh;
-        if (!fresh) fault(row.line, "name", quoted_text(set.name), "names two parameter sets");
-        if (!is_safe_name(set.name)) fault(row.line, "name", quoted_text(set.name), "too long, or no name of a file");
-      }
-  }
-
-  void add_set(Study& study, const Row& row, std::string name, std::vector<Setting> settings) {
-    ParameterSet set;
-    set.name = std::move(name);
-    set.scene_path = (std::filesystem::path(path_).parent_path() / row.scene).string();
-    set.seeds = row.seeds;
-    set.stages = row.stages;
-    for (const Setting& s : settings)
-      if (std::find(study.keys.begin(), study.keys.end(), s.key) == study.keys.end()) study.keys.push_back(s.key);
-    std::optional<Scene> scene = resolved(set, settings);
-    if (scene && !set.stages.empty() && check_stages(row, set.name, set.stages, scene->stages.size() - 1)) {
-      std::erase_if(settings, [](const Setting& s) { return s.key == kStatesKey; });
-      settings.push_back({kStatesKey, "true", row.line});
-      scene = resolved(set, settings);
-    }
-    if (scene) set.scene = *scene;
-    for (Setting& s : settings) set.settings.emplace_back(std::move(s.key), std::move(s.value));
-    study.sets.push_back(std::move(set));
-  }
-
-  // Whether states after other stages than the last are needed, and can be had.
-  bool check_stages(const Row& row, const std::string& name, const std::vector<std::size_t>& stages, std::size_t last) {
-    bool between = false, possible = true;
-    for (const std::size_t stage : stages) {
-      between = between || stage < last;
-      if (stage <= last && (stage == last || keeps_stage_states())) continue;
-      possible = false;
-      fault(row.line, "stages", std::to_string(stage),
-            (stage > last ? "no such stage in " + name + ": the last is "
-                          : "only the state after the last stage is kept by this version, in " + name + " ") +
-                std::to_string(last) + ", counted from 0");
-    }
-    return between && possible;
-  }
-
-  // Faults of a setting stand at its line of the study; the same one in many sets is told once.
-  std::optional<Scene> resolved(const ParameterSet& set, const std::vector<Setting>& settings) {
-    std::vector<std::string> overrides;
-    for (const Setting& s : settings) overrides.push_back(s.key + "=" + s.value);
-    try {
-      return read_scene(set.scene_path, overrides);
-    } catch (const InputError& error) {
-      for (Fault f : error.faults()) {
-        if (f.file == "--set") {
-          f.file = path_;
-          for (const Setting& s : settings)
-            if (s.key == f.key) f.line = s.line;
-        }
-        if (!told_.insert({f.file, f.line, f.key, f.value, f.rule}).second) continue;
-        f.rule += " (in " + set.name + ")";
-        faults_.push_back(std::move(f));
-      }
-      return std::nullopt;
-    }
-  }
-
-  std::string path_;
+  StudyFaults& faults_;
+  StudyFile file_;
   toml::table table_;
+  // What holds for every row that does not say otherwise.
   std::string scene_;
   std::vector<std::uint64_t> seeds_;
   std::vector<std::size_t> stages_;
   std::vector<Setting> set_;
-  std::vector<Row> rows_;
-  std::vector<GridAxis> grid_;
-  std::vector<Fault> faults_;
-  std::set<std::tuple<std::string, int, std::string, std::string, std::string>> told_;
 };
 
 }  // namespace
 
-Study read_study(const std::string& path) { return StudyParser(path).read(); }
+StudyFile read_study_file(StudyFaults& faults) { return StudyParser(faults).read(); }
+
+bool is_safe_name(const std::string& name) {
+  return !name.empty() && name.size() <= 150 && name.front() != '.' && name.front() != '-' &&
+         name.find_first_not_of(kNameLetters) == std::string::npos;
+}
 
 }  // namespace isostat
