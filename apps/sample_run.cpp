@@ -151,25 +151,24 @@ class SampleRun {
       hooks.observe_interval = o.series_interval;
     }
     if (!o.snapshot_times.empty() || !o.snapshot_solid_fractions.empty())
-      hooks.snapshot = [this, count = snapshots_before(state)](const State& s) mutable {
-        char number[24];
-        std::snprintf(number, sizeof number, "snapshot%04d", ++count);
-        write(s, beside(number));
-      };
+      hooks.snapshot = [this, count = snapshots_before(state)](const State& s) mutable { write(s, snapshot(++count)); };
     return hooks;
   }
 
-  // A resumed run numbers its snapshots on.
+  std::string snapshot(int number) const {
+    char label[24];
+    std::snprintf(label, sizeof label, "snapshot%04d", number);
+    return beside(label);
+  }
+
+  // A resumed run numbers its snapshots on from the last one before the checkpoint. They are numbered in order of time:
+  // from the last file back, only those are read that are written anew.
   int snapshots_before(const State& state) const {
-    int count = 0;
+    int last = 0;
     if (resumed_at_ < 0) return 0;
-    const std::filesystem::path p(job_.output), folder = p.parent_path().empty() ? "." : p.parent_path();
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-      const std::string name = entry.path().filename().string();
-      if (name.starts_with(p.stem().string() + ".snapshot") && read_state(entry.path().string()).time <= state.time)
-        ++count;
-    }
-    return count;
+    while (std::filesystem::exists(snapshot(last + 1))) ++last;
+    while (last > 0 && read_state(snapshot(last)).time > state.time) --last;
+    return last;
   }
 
   const SampleJob& job_;

@@ -130,11 +130,13 @@ TEST_F(Pack, SeriesAndSnapshotsOnlyWatch) {
 }
 
 TEST_F(Pack, InterruptedRunsResumeToTheSameBits) {
-  const std::string more = " --set stage.1.time=200 --set output.series='\"" + in_folder("series.csv") + "\"'";
+  const std::string more = " --set stage.1.time=200 --set output.series='\"" + in_folder("series.csv") +
+                           "\"' --set output.snapshot_times=[0.5,150.0]";
   ASSERT_EQ(run(pack("straight.h5", more)).code, 0);
   const std::string straight_series = content(in_folder("series.csv"));
   fs::remove(in_folder("series.csv"));
   std::ofstream(in_folder("cut.h5")) << "an older result";
+  std::ofstream(in_folder("cut.snapshot0001.h5.tmp.1.2")) << "what a killed run left";
 
   for (const int signal : {SIGINT, SIGTERM}) {
     const std::size_t rows = signal == SIGINT ? 3 : 60;
@@ -157,6 +159,8 @@ TEST_F(Pack, InterruptedRunsResumeToTheSameBits) {
   EXPECT_FALSE(exists("cut.h5.partial"));
   EXPECT_EQ(hash("cut.h5"), hash("straight.h5"));
   EXPECT_EQ(content(in_folder("series.csv")), straight_series);
+  EXPECT_NEAR(read_state(in_folder("cut.snapshot0002.h5")).time, 150, 0.1);
+  EXPECT_FALSE(exists("cut.snapshot0003.h5"));
 
   const std::string finished = content(in_folder("cut.h5"));
   EXPECT_EQ(run(pack("cut.h5", more + " --resume")).code, 0) << "nothing left to do";
