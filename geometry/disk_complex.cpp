@@ -5,12 +5,11 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "geometry/base/index.hpp"
 #include "geometry/disk_signs.hpp"
 
 namespace isostat {
 namespace {
-
-std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 // Spacing of the auxiliary sites in mean spacings of the disks: larger means fewer sites but a thicker padding. The
 // optimum is flat (2 to 4) for 1400 to 1e5 disks.
@@ -103,15 +102,15 @@ void place_sites(Work& w, DiskComplex& out) {
   std::vector<std::int32_t> order(n);
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
-    const auto &p = placed[index(a)].at, &q = placed[index(b)].at;
+    const auto &p = placed[idx(a)].at, &q = placed[idx(b)].at;
     if (p[0] != q[0]) return p[0] < q[0];
     if (p[1] != q[1]) return p[1] < q[1];
-    if (w.radius[index(a)] != w.radius[index(b)]) return w.radius[index(a)] > w.radius[index(b)];
+    if (w.radius[idx(a)] != w.radius[idx(b)]) return w.radius[idx(a)] > w.radius[idx(b)];
     return a < b;
   });
   std::vector<bool> keep(n, true);
   for (std::size_t k = 1; k < n; ++k)
-    if (placed[index(order[k])].at == placed[index(order[k - 1])].at) keep[index(order[k])] = false;
+    if (placed[idx(order[k])].at == placed[idx(order[k - 1])].at) keep[idx(order[k])] = false;
 
   for (std::size_t i = 0; i < n; ++i) {
     if (!keep[i]) continue;
@@ -136,7 +135,7 @@ void place_sites(Work& w, DiskComplex& out) {
 }
 
 Vec2 image_position(const PeriodicSites& s, const SiteImage& v) {
-  const auto& p = s.position[index(v.site)];
+  const auto& p = s.position[idx(v.site)];
   return {p[0] + v.shift[0] * s.length[0], p[1] + v.shift[1] * s.length[1]};
 }
 
@@ -148,31 +147,31 @@ void classify_faces(const Work& w, DiskComplex& out) {
     if (!out.is_disk(u.site) || !out.is_disk(v.site) || !out.is_disk(x.site)) continue;  // power > 0 at its centre
     const Vec2 p = image_position(w.sites, u);
     out.face_covered[f] =
-        orthoradius_sign(image_position(w.sites, v) - p, image_position(w.sites, x) - p, w.sites.weight[index(u.site)],
-                         w.sites.weight[index(v.site)], w.sites.weight[index(x.site)]) <= 0;
+        orthoradius_sign(image_position(w.sites, v) - p, image_position(w.sites, x) - p, w.sites.weight[idx(u.site)],
+                         w.sites.weight[idx(v.site)], w.sites.weight[idx(x.site)]) <= 0;
   }
 }
 
 // An edge is closed if one of its faces is covered, or if the two disks meet at a point of their power edge.
 EdgeState classify_edge(const Work& w, const DiskComplex& c, std::int32_t i, std::int32_t slot) {
   const auto& t = c.triangulation;
-  const auto k = index(slot), before = index(t.previous(i, slot)), after = index(t.next(i, slot));
+  const auto k = idx(slot), before = idx(t.previous(i, slot)), after = idx(t.next(i, slot));
   const auto j = t.neighbour[k];
   if (!c.is_disk(j.site)) return EdgeState::open;
-  if (c.face_covered[index(t.face[k])] || c.face_covered[index(t.face[before])]) return EdgeState::closed;
-  const auto &wi = w.wrap[index(i)], &wj = w.wrap[index(j.site)];
-  const auto a = index(c.input[index(i)]), b = index(c.input[index(j.site)]);
+  if (c.face_covered[idx(t.face[k])] || c.face_covered[idx(t.face[before])]) return EdgeState::closed;
+  const auto &wi = w.wrap[idx(i)], &wj = w.wrap[idx(j.site)];
+  const auto a = idx(c.input[idx(i)]), b = idx(c.input[idx(j.site)]);
   const auto reach_sign = [&](double radius_b, double tolerance) {
     return gap_sign(w.centre[a], w.centre[b], j.shift[0] + wi[0] - wj[0], j.shift[1] + wi[1] - wj[1], w.cell.length,
                     w.radius[a], radius_b, tolerance);
   };
   if (reach_sign(w.radius[b], w.tolerance) > 0) return EdgeState::open;
   if (reach_sign(-w.radius[b], 0) < 0) return EdgeState::open;  // one inside the other: their circles do not meet
-  const Vec2 p = w.sites.position[index(i)], d = image_position(w.sites, j) - p;
+  const Vec2 p = w.sites.position[idx(i)], d = image_position(w.sites, j) - p;
   for (const auto side : {before, after}) {
     const auto& o = t.neighbour[side];
-    if (edge_centre_sign(d, image_position(w.sites, o) - p, w.sites.weight[index(i)], w.sites.weight[index(j.site)],
-                         w.sites.weight[index(o.site)]) < 0)
+    if (edge_centre_sign(d, image_position(w.sites, o) - p, w.sites.weight[idx(i)], w.sites.weight[idx(j.site)],
+                         w.sites.weight[idx(o.site)]) < 0)
       return EdgeState::open;
   }
   return w.tolerance == 0 || reach_sign(w.radius[b], 0) <= 0 ? EdgeState::closed : EdgeState::bridged;
@@ -196,10 +195,10 @@ DiskComplex disk_complex(std::span<const Vec2> centre, std::span<const double> r
   out.branch.resize(t.neighbour.size());
   out.edge.resize(t.neighbour.size(), EdgeState::open);
   classify_faces(w, out);
-  for (std::int32_t i = 0; index(i) + 1 < t.first.size(); ++i)
-    for (auto slot = t.first[index(i)]; slot < t.first[index(i) + 1]; ++slot) {
-      out.branch[index(slot)] = image_position(w.sites, t.neighbour[index(slot)]) - w.sites.position[index(i)];
-      if (out.is_disk(i)) out.edge[index(slot)] = classify_edge(w, out, i, slot);
+  for (std::int32_t i = 0; idx(i) + 1 < t.first.size(); ++i)
+    for (auto slot = t.first[idx(i)]; slot < t.first[idx(i) + 1]; ++slot) {
+      out.branch[idx(slot)] = image_position(w.sites, t.neighbour[idx(slot)]) - w.sites.position[idx(i)];
+      if (out.is_disk(i)) out.edge[idx(slot)] = classify_edge(w, out, i, slot);
     }
   return out;
 }

@@ -7,13 +7,13 @@
 #include <numeric>
 
 #include "geometry/arc_moments.hpp"
+#include "geometry/base/index.hpp"
 #include "geometry/disk_complex.hpp"
 #include "geometry/winding_sets.hpp"
 
 namespace isostat {
 namespace {
 
-std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
 // One arc on its way to its pore.
@@ -33,18 +33,18 @@ class PoreFinder {
   Pores find(bool with_arcs) {
     join_open_faces();
     name_pores();
-    for (std::int32_t i = 0; index(i) < c_.size(); ++i) walls_of(i);
+    for (std::int32_t i = 0; idx(i) < c_.size(); ++i) walls_of(i);
     measure();
     return finish(with_arcs);
   }
 
  private:
-  bool open(std::int32_t face) const { return !c_.face_covered[index(face)]; }
+  bool open(std::int32_t face) const { return !c_.face_covered[idx(face)]; }
 
   void join_open_faces() {
-    for (std::int32_t i = 0; index(i) + 1 < t_.first.size(); ++i)
-      for (auto slot = t_.first[index(i)]; slot < t_.first[index(i) + 1]; ++slot) {
-        const auto left = index(slot), right = index(t_.previous(i, slot));
+    for (std::int32_t i = 0; idx(i) + 1 < t_.first.size(); ++i)
+      for (auto slot = t_.first[idx(i)]; slot < t_.first[idx(i) + 1]; ++slot) {
+        const auto left = idx(slot), right = idx(t_.previous(i, slot));
         // From a disk's side both slots of an edge are seen: once is enough. Auxiliary sites close nothing.
         if (c_.edge[left] != EdgeState::open || t_.neighbour[left].site < i) continue;
         sets_.join(t_.face[left], t_.face[right], minus(t_.face_shift[right], t_.face_shift[left]));
@@ -54,29 +54,29 @@ class PoreFinder {
   void name_pores() {
     pore_of_face_.assign(t_.faces.size(), -1);
     std::vector<std::int32_t> name(t_.faces.size(), -1);
-    for (std::int32_t f = 0; index(f) < t_.faces.size(); ++f) {
+    for (std::int32_t f = 0; idx(f) < t_.faces.size(); ++f) {
       if (!open(f)) continue;
       const auto root = sets_.find(f).root;
-      if (name[index(root)] < 0) {
-        name[index(root)] = static_cast<std::int32_t>(pores_.size());
+      if (name[idx(root)] < 0) {
+        name[idx(root)] = static_cast<std::int32_t>(pores_.size());
         Pore p;
         p.along = sets_.along(root);
         p.percolating = p.along[0] || p.along[1];
         pores_.push_back(p);
       }
-      pore_of_face_[index(f)] = name[index(root)];
+      pore_of_face_[idx(f)] = name[idx(root)];
     }
     local_area_.assign(pores_.size(), 0);
-    for (std::int32_t f = 0; index(f) < t_.faces.size(); ++f) {
-      double& area = open(f) ? local_area_[index(pore_of_face_[index(f)])] : covered_;
+    for (std::int32_t f = 0; idx(f) < t_.faces.size(); ++f) {
+      double& area = open(f) ? local_area_[idx(pore_of_face_[idx(f)])] : covered_;
       area += face_area(f);
     }
   }
 
   double face_area(std::int32_t f) const {
-    const auto& v = t_.faces[index(f)];
+    const auto& v = t_.faces[idx(f)];
     const auto slot = t_.slot_of(v[0].site, v[1]);
-    const Vec2 &a = c_.branch[index(slot)], &b = c_.branch[index(t_.next(v[0].site, slot))];
+    const Vec2 &a = c_.branch[idx(slot)], &b = c_.branch[idx(t_.next(v[0].site, slot))];
     return 0.5 * (a[0] * b[1] - a[1] * b[0]);
   }
 
@@ -85,9 +85,9 @@ class PoreFinder {
     double cosine, sine, angle;
   };
   HalfAngle half_angle(std::int32_t i, std::int32_t slot) const {
-    if (c_.edge[index(slot)] == EdgeState::bridged) return {1, 0, 0};
-    const double r = c_.radius[index(i)], q = c_.radius[index(t_.neighbour[index(slot)].site)];
-    const double d = norm(c_.branch[index(slot)]);
+    if (c_.edge[idx(slot)] == EdgeState::bridged) return {1, 0, 0};
+    const double r = c_.radius[idx(i)], q = c_.radius[idx(t_.neighbour[idx(slot)].site)];
+    const double d = norm(c_.branch[idx(slot)]);
     // Heron's form: no cancellation but in r + q - d itself.
     const double product = (r + q - d) * (r + q + d) * (d - (r - q)) * (d + (r - q));
     const double cosine = (d * d + (r - q) * (r + q)) / (2 * d * r);
@@ -96,33 +96,33 @@ class PoreFinder {
   }
 
   double sector_angle(std::int32_t i, std::int32_t slot) const {
-    const Vec2 &a = c_.branch[index(slot)], &b = c_.branch[index(t_.next(i, slot))];
+    const Vec2 &a = c_.branch[idx(slot)], &b = c_.branch[idx(t_.next(i, slot))];
     return std::atan2(a[0] * b[1] - a[1] * b[0], dot(a, b));
   }
 
   // A disk without closed edge is either whole or covered by others: its centre tells, being in its own power cell
   // or not.
   bool covered_by_others(std::int32_t i) const {
-    const double w = c_.radius[index(i)] * c_.radius[index(i)];
-    for (auto slot = t_.first[index(i)]; slot < t_.first[index(i) + 1]; ++slot) {
-      const auto j = t_.neighbour[index(slot)].site;
+    const double w = c_.radius[idx(i)] * c_.radius[idx(i)];
+    for (auto slot = t_.first[idx(i)]; slot < t_.first[idx(i) + 1]; ++slot) {
+      const auto j = t_.neighbour[idx(slot)].site;
       if (!c_.is_disk(j)) continue;
-      const double q = c_.radius[index(j)];
-      if (dot(c_.branch[index(slot)], c_.branch[index(slot)]) + w - q * q < 0) return true;
+      const double q = c_.radius[idx(j)];
+      if (dot(c_.branch[idx(slot)], c_.branch[idx(slot)]) + w - q * q < 0) return true;
     }
-    return t_.first[index(i)] == t_.first[index(i) + 1];
+    return t_.first[idx(i)] == t_.first[idx(i) + 1];
   }
 
   void add_wall(std::int32_t i, std::int32_t open_slot, const Vec2& start, double sweep, std::int32_t start_slot,
                 std::int32_t end_slot) {
-    const auto f = t_.face[index(open_slot)];
-    const auto pore = pore_of_face_[index(f)];
+    const auto f = t_.face[idx(open_slot)];
+    const auto pore = pore_of_face_[idx(f)];
     // The listed face lies in image `offset` of the pore's frame; the one seen from disk i in its own image is it
     // moved by face_shift, so disk i has to be moved by the difference.
     walls_.push_back(
-        {pore, i, minus(sets_.find(f).offset, t_.face_shift[index(open_slot)]), start, sweep, start_slot, end_slot});
-    const double r = c_.radius[index(i)];
-    local_area_[index(pore)] -= 0.5 * r * r * sweep;
+        {pore, i, minus(sets_.find(f).offset, t_.face_shift[idx(open_slot)]), start, sweep, start_slot, end_slot});
+    const double r = c_.radius[idx(i)];
+    local_area_[idx(pore)] -= 0.5 * r * r * sweep;
     covered_ += 0.5 * r * r * sweep;
     perimeter_ += r * sweep;
   }
@@ -130,16 +130,16 @@ class PoreFinder {
   // Triangle of the two centres and the crossing point of the circles, on an open side of a closed edge; half of it
   // from either end.
   void add_kite(std::int32_t i, std::int32_t slot, std::int32_t open_slot, const HalfAngle& h) {
-    const double area = 0.25 * norm(c_.branch[index(slot)]) * h.sine * c_.radius[index(i)];
-    local_area_[index(pore_of_face_[index(t_.face[index(open_slot)])])] -= area;
+    const double area = 0.25 * norm(c_.branch[idx(slot)]) * h.sine * c_.radius[idx(i)];
+    local_area_[idx(pore_of_face_[idx(t_.face[idx(open_slot)])])] -= area;
     covered_ += area;
   }
 
   void walls_of(std::int32_t i) {
-    const auto begin = t_.first[index(i)], end = t_.first[index(i) + 1];
+    const auto begin = t_.first[idx(i)], end = t_.first[idx(i) + 1];
     std::int32_t anchor = -1;
     for (auto slot = begin; slot < end && anchor < 0; ++slot)
-      if (c_.edge[index(slot)] != EdgeState::open) anchor = slot;
+      if (c_.edge[idx(slot)] != EdgeState::open) anchor = slot;
     if (anchor < 0) {
       if (!covered_by_others(i)) add_wall(i, begin, {1, 0}, kTwoPi, -1, -1);
       return;
@@ -152,11 +152,11 @@ class PoreFinder {
       do {
         angle += sector_angle(i, slot);
         slot = t_.next(i, slot);
-      } while (c_.edge[index(slot)] == EdgeState::open);
+      } while (c_.edge[idx(slot)] == EdgeState::open);
       const auto to = half_angle(i, slot);
-      if (open(t_.face[index(first_sector)])) {
+      if (open(t_.face[idx(first_sector)])) {
         if (slot == first_sector) angle = kTwoPi;
-        const Vec2 u = (1 / norm(c_.branch[index(first_sector)])) * c_.branch[index(first_sector)];
+        const Vec2 u = (1 / norm(c_.branch[idx(first_sector)])) * c_.branch[idx(first_sector)];
         const Vec2 start{u[0] * from.cosine - u[1] * from.sine, u[1] * from.cosine + u[0] * from.sine};
         add_wall(i, first_sector, start, angle - from.angle - to.angle, first_sector, slot);
         add_kite(i, first_sector, first_sector, from);
@@ -166,15 +166,15 @@ class PoreFinder {
     } while (slot != anchor);
   }
 
-  Vec2 placed(const Wall& w) const { return c_.centre[index(w.disk)] + c_.cell.offset(w.image); }
+  Vec2 placed(const Wall& w) const { return c_.centre[idx(w.disk)] + c_.cell.offset(w.image); }
 
   // From the end of an arc on a bridged edge the wall crosses the gap to the neighbour's surface.
   WallIntegrals bridge_integrals(const Wall& w, const Vec2& centre) const {
-    if (w.end_slot < 0 || c_.edge[index(w.end_slot)] != EdgeState::bridged) return {};
-    const Vec2 d = c_.branch[index(w.end_slot)];
+    if (w.end_slot < 0 || c_.edge[idx(w.end_slot)] != EdgeState::bridged) return {};
+    const Vec2 d = c_.branch[idx(w.end_slot)];
     const Vec2 u = (1 / norm(d)) * d;
-    const double q = c_.radius[index(t_.neighbour[index(w.end_slot)].site)];
-    return link_integrals(centre + c_.radius[index(w.disk)] * u, centre + (d - q * u));
+    const double q = c_.radius[idx(t_.neighbour[idx(w.end_slot)].site)];
+    return link_integrals(centre + c_.radius[idx(w.disk)] * u, centre + (d - q * u));
   }
 
   void measure() {
@@ -182,10 +182,10 @@ class PoreFinder {
     std::vector<Vec2> origin(pores_.size());
     std::vector<bool> seen(pores_.size(), false);
     for (const auto& w : walls_) {
-      const auto k = index(w.pore);
+      const auto k = idx(w.pore);
       if (pores_[k].percolating) continue;
       const Vec2 centre = placed(w);
-      const double r = c_.radius[index(w.disk)];
+      const double r = c_.radius[idx(w.disk)];
       if (!seen[k]) seen[k] = true, origin[k] = centre + r * w.start;  // on the wall: small pores stay exact
       sum[k] += arc_integrals(centre - origin[k], r, w.start, w.sweep);
       sum[k] += bridge_integrals(w, centre - origin[k]);
@@ -228,30 +228,26 @@ class PoreFinder {
   }
 
   void list_arcs(Pores& out, const std::vector<std::size_t>& rank) const {
-    for (const auto& w : walls_) ++out.pores[rank[index(w.pore)]].arcs;
+    for (const auto& w : walls_) ++out.pores[rank[idx(w.pore)]].arcs;
     std::uint32_t total = 0;
     for (auto& p : out.pores) p.first_arc = total, total += p.arcs;
     std::vector<std::uint32_t> filled(out.pores.size(), 0), place(walls_.size());
     std::vector<std::uint32_t> starting_at(t_.neighbour.size(), 0);  // wall that starts at a slot
     for (std::size_t n = 0; n < walls_.size(); ++n) {
-      const auto k = rank[index(walls_[n].pore)];
+      const auto k = rank[idx(walls_[n].pore)];
       place[n] = out.pores[k].first_arc + filled[k]++;
-      if (walls_[n].start_slot >= 0) starting_at[index(walls_[n].start_slot)] = static_cast<std::uint32_t>(n);
+      if (walls_[n].start_slot >= 0) starting_at[idx(walls_[n].start_slot)] = static_cast<std::uint32_t>(n);
     }
     out.arcs.resize(walls_.size());
     for (std::size_t n = 0; n < walls_.size(); ++n) {
       const auto& w = walls_[n];
       std::uint32_t next = place[n];
       if (w.end_slot >= 0) {  // on the other disk of the edge at which this one ends
-        const auto& j = t_.neighbour[index(w.end_slot)];
-        next = place[starting_at[index(t_.slot_of(j.site, {w.disk, {-j.shift[0], -j.shift[1]}}))]];
+        const auto& j = t_.neighbour[idx(w.end_slot)];
+        next = place[starting_at[idx(t_.slot_of(j.site, {w.disk, {-j.shift[0], -j.shift[1]}}))]];
       }
-      out.arcs[place[n]] = {c_.input[index(w.disk)],
-                            placed(w),
-                            c_.radius[index(w.disk)],
-                            std::atan2(w.start[1], w.start[0]),
-                            w.sweep,
-                            next};
+      out.arcs[place[n]] = {
+          c_.input[idx(w.disk)], placed(w), c_.radius[idx(w.disk)], std::atan2(w.start[1], w.start[0]), w.sweep, next};
     }
   }
 

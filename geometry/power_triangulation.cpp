@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "geometry/base/index.hpp"
+
 namespace isostat {
 namespace {
 
@@ -90,7 +92,7 @@ void read_stars(const Triangulation& t, std::size_t sites, PowerTriangulation& o
   std::vector<Triangulation::Vertex_handle> original(sites);
   std::size_t slots = 0;
   for (auto v = t.finite_vertices_begin(); v != t.finite_vertices_end(); ++v)
-    if (v->info().shift == ImageShift<2>{}) original[static_cast<std::size_t>(v->info().site)] = v;
+    if (v->info().shift == ImageShift<2>{}) original[idx(v->info().site)] = v;
   slots = 6 * sites + 16;
   out.neighbour.reserve(slots);
   out.first.reserve(sites + 1);
@@ -112,30 +114,28 @@ void name_faces(PowerTriangulation& out) {
   out.face_shift.assign(out.neighbour.size(), {});
   const auto sites = static_cast<std::int32_t>(out.first.size()) - 1;
   const auto sector = [&](std::int32_t i, std::int32_t slot) {
-    const auto k = static_cast<std::size_t>(slot), n = static_cast<std::size_t>(out.next(i, slot));
+    const auto k = idx(slot), n = idx(out.next(i, slot));
     return smallest_first({SiteImage{i, {}}, out.neighbour[k], out.neighbour[n]});
   };
   for (std::int32_t i = 0; i < sites; ++i)
-    for (auto slot = out.first[static_cast<std::size_t>(i)]; slot < out.first[static_cast<std::size_t>(i) + 1];
-         ++slot) {
+    for (auto slot = out.first[idx(i)]; slot < out.first[idx(i) + 1]; ++slot) {
       const auto corner = sector(i, slot);
       if (corner[0] == SiteImage{i, {}}) {
-        out.face[static_cast<std::size_t>(slot)] = static_cast<std::int32_t>(out.faces.size());
+        out.face[idx(slot)] = static_cast<std::int32_t>(out.faces.size());
         out.faces.push_back(corner);
       }
     }
   for (std::int32_t i = 0; i < sites; ++i)
-    for (auto slot = out.first[static_cast<std::size_t>(i)]; slot < out.first[static_cast<std::size_t>(i) + 1];
-         ++slot) {
-      const auto k = static_cast<std::size_t>(slot);
+    for (auto slot = out.first[idx(i)]; slot < out.first[idx(i) + 1]; ++slot) {
+      const auto k = idx(slot);
       if (out.face[k] >= 0) continue;
       const auto corner = sector(i, slot);
       const auto shift = corner[0].shift;
       const auto owner = out.slot_of(corner[0].site, moved(corner[1], shift));
-      const auto after = static_cast<std::size_t>(out.next(corner[0].site, owner));
+      const auto after = idx(out.next(corner[0].site, owner));
       if (out.neighbour[after] != moved(corner[2], shift))
         throw std::logic_error("power_triangulation: stars do not match");
-      out.face[k] = out.face[static_cast<std::size_t>(owner)];
+      out.face[k] = out.face[idx(owner)];
       out.face_shift[k] = shift;
     }
 }
@@ -143,8 +143,8 @@ void name_faces(PowerTriangulation& out) {
 }  // namespace
 
 std::int32_t PowerTriangulation::slot_of(std::int32_t site, const SiteImage& image) const {
-  for (auto k = first[static_cast<std::size_t>(site)]; k < first[static_cast<std::size_t>(site) + 1]; ++k)
-    if (neighbour[static_cast<std::size_t>(k)] == image) return k;
+  for (auto k = first[idx(site)]; k < first[idx(site) + 1]; ++k)
+    if (neighbour[idx(k)] == image) return k;
   throw std::logic_error("power_triangulation: edge without its reverse");
 }
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/base/index.hpp"
 #include "geometry/periodic_cell.hpp"
 #include "geometry/vec.hpp"
 
@@ -37,10 +38,10 @@ struct PowerTriangulation {
   std::vector<std::array<SiteImage, 3>> faces;  // anticlockwise; the first vertex has shift 0
 
   std::int32_t next(std::int32_t site, std::int32_t slot) const {
-    return slot + 1 == first[static_cast<std::size_t>(site) + 1] ? first[static_cast<std::size_t>(site)] : slot + 1;
+    return slot + 1 == first[idx(site) + 1] ? first[idx(site)] : slot + 1;
   }
   std::int32_t previous(std::int32_t site, std::int32_t slot) const {
-    return (slot == first[static_cast<std::size_t>(site)] ? first[static_cast<std::size_t>(site) + 1] : slot) - 1;
+    return (slot == first[idx(site)] ? first[idx(site) + 1] : slot) - 1;
   }
   // Slot of `image` in the star of `site`; throws std::logic_error if there is none.
   std::int32_t slot_of(std::int32_t site, const SiteImage& image) const;

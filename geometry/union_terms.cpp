@@ -4,12 +4,11 @@
 #include <cmath>
 #include <cstdint>
 
+#include "geometry/base/index.hpp"
 #include "geometry/overlap_points.hpp"
 
 namespace isostat {
 namespace {
-
-std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 struct Pair {
   std::int32_t i, j;
@@ -35,11 +34,11 @@ std::optional<std::vector<Pair>> overlapping_pairs(std::span<const Vec2> centre,
     const int x = std::min(nx - 1, static_cast<int>(at[i][0] / cell.length[0] * nx)),
               y = std::min(ny - 1, static_cast<int>(at[i][1] / cell.length[1] * ny));
     bin[i] = y * nx + x;
-    ++first[index(bin[i]) + 1];
+    ++first[idx(bin[i]) + 1];
   }
   for (std::size_t b = 1; b < first.size(); ++b) first[b] += first[b - 1];
   auto fill = first;
-  for (std::size_t i = 0; i < at.size(); ++i) member[index(fill[index(bin[i])]++)] = static_cast<std::int32_t>(i);
+  for (std::size_t i = 0; i < at.size(); ++i) member[idx(fill[idx(bin[i])]++)] = static_cast<std::int32_t>(i);
   std::vector<Pair> pairs;
   for (int y = 0; y < ny; ++y)
     for (int x = 0; x < nx; ++x)
@@ -52,13 +51,13 @@ std::optional<std::vector<Pair>> overlapping_pairs(std::span<const Vec2> centre,
                           oy < 0     ? -cell.length[1]
                           : oy >= ny ? cell.length[1]
                                      : 0};
-          const auto here = index(y * nx + x), there = index(((oy + ny) % ny) * nx + (ox + nx) % nx);
+          const auto here = idx(y * nx + x), there = idx(((oy + ny) % ny) * nx + (ox + nx) % nx);
           for (auto a = first[here]; a < first[here + 1]; ++a)
             for (auto b = first[there]; b < first[there + 1]; ++b) {
-              const auto i = member[index(a)], j = member[index(b)];
+              const auto i = member[idx(a)], j = member[idx(b)];
               if (j <= i) continue;
-              const Vec2 s = at[index(j)] + move - at[index(i)];
-              const double reach = radius[index(i)] + radius[index(j)];
+              const Vec2 s = at[idx(j)] + move - at[idx(i)];
+              const double reach = radius[idx(i)] + radius[idx(j)];
               if (dot(s, s) < reach * reach) pairs.push_back({i, j, s});
             }
         }
@@ -69,15 +68,15 @@ std::optional<std::vector<Pair>> overlapping_pairs(std::span<const Vec2> centre,
 bool deep_overlaps(const std::vector<Pair>& pairs, std::span<const double> radius) {
   std::vector<std::vector<std::pair<std::int32_t, Vec2>>> around(radius.size());
   for (const auto& p : pairs)
-    around[index(p.i)].push_back({p.j, p.branch}), around[index(p.j)].push_back({p.i, -1.0 * p.branch});
+    around[idx(p.i)].push_back({p.j, p.branch}), around[idx(p.j)].push_back({p.i, -1.0 * p.branch});
   for (const auto& p : pairs) {
-    const double r = radius[index(p.i)], q = radius[index(p.j)], d = norm(p.branch);
+    const double r = radius[idx(p.i)], q = radius[idx(p.j)], d = norm(p.branch);
     if (d <= std::abs(r - q)) return true;
     const double foot = (d * d + (r - q) * (r + q)) / (2 * d), s = std::sqrt(std::max(0.0, (r - foot) * (r + foot)));
     const double lens = std::max(s, r + q - d);  // radius of a circle about the foot that holds the lens
-    for (const auto& [k, branch] : around[index(p.i)]) {
+    for (const auto& [k, branch] : around[idx(p.i)]) {
       const Vec2 apart = branch - (foot / d) * p.branch;
-      if ((k != p.j || norm(branch - p.branch) > 0.5 * d) && norm(apart) < radius[index(k)] + lens) return true;
+      if ((k != p.j || norm(branch - p.branch) > 0.5 * d) && norm(apart) < radius[idx(k)] + lens) return true;
     }
   }
   return false;
@@ -94,8 +93,8 @@ std::optional<UnionTerms> union_terms(std::span<const Vec2> centre, std::span<co
   if (!pairs || deep_overlaps(*pairs, radius)) return std::nullopt;
   OverlapPoints points(out, k_max, tolerance);
   for (const auto& p : *pairs) {
-    const auto whole = points.lens(centre[index(p.i)], p.branch, radius[index(p.i)], radius[index(p.j)], -1);
-    out.disk_weight[index(p.i)] += whole[0], out.disk_weight[index(p.j)] += whole[1];
+    const auto whole = points.lens(centre[idx(p.i)], p.branch, radius[idx(p.i)], radius[idx(p.j)], -1);
+    out.disk_weight[idx(p.i)] += whole[0], out.disk_weight[idx(p.j)] += whole[1];
   }
   return out;
 }

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <vector>
 
+#include "geometry/base/index.hpp"
 #include "geometry/periodic_cell.hpp"
 
 namespace isostat {
@@ -27,12 +28,12 @@ class WindingSets {
   Place find(std::int32_t f) {
     std::int32_t root = f;
     ImageShift<2> total{};
-    while (parent_[at(root)] != root) total = plus(total, offset_[at(root)]), root = parent_[at(root)];
+    while (parent_[idx(root)] != root) total = plus(total, offset_[idx(root)]), root = parent_[idx(root)];
     const Place place{root, total};
-    while (parent_[at(f)] != f) {
-      const auto up = parent_[at(f)];
-      const auto rest = minus(total, offset_[at(f)]);
-      parent_[at(f)] = root, offset_[at(f)] = total;
+    while (parent_[idx(f)] != f) {
+      const auto up = parent_[idx(f)];
+      const auto rest = minus(total, offset_[idx(f)]);
+      parent_[idx(f)] = root, offset_[idx(f)] = total;
       f = up, total = rest;
     }
     return place;
@@ -42,16 +43,15 @@ class WindingSets {
     const auto pa = find(a), pb = find(b);
     const auto shift = minus(plus(pa.offset, relative), pb.offset);  // of root b against root a
     if (pa.root == pb.root) {
-      for (std::size_t k = 0; k < 2; ++k) along_[at(pa.root)][k] |= shift[k] != 0;
+      for (std::size_t k = 0; k < 2; ++k) along_[idx(pa.root)][k] |= shift[k] != 0;
       return;
     }
-    parent_[at(pb.root)] = pa.root, offset_[at(pb.root)] = shift;
-    for (std::size_t k = 0; k < 2; ++k) along_[at(pa.root)][k] |= along_[at(pb.root)][k];
+    parent_[idx(pb.root)] = pa.root, offset_[idx(pb.root)] = shift;
+    for (std::size_t k = 0; k < 2; ++k) along_[idx(pa.root)][k] |= along_[idx(pb.root)][k];
   }
-  std::array<bool, 2> along(std::int32_t root) const { return along_[at(root)]; }
+  std::array<bool, 2> along(std::int32_t root) const { return along_[idx(root)]; }
 
  private:
-  static std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
   std::vector<std::int32_t> parent_;
   std::vector<ImageShift<2>> offset_;
   std::vector<std::array<bool, 2>> along_;

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "analysis/figure/picture_content.hpp"
+#include "geometry/base/index.hpp"
 
 namespace isostat {
 namespace {
@@ -22,7 +23,7 @@ class ClustersContent final : public PictureContent {
         paints.push_back({blend(c, kWhite, white), pen.outline(kDiskOutline)});
     std::vector<std::size_t> style;
     for (const std::int32_t c : options_.of_grain)
-      style.push_back(c < 0 ? 0 : 1 + 2 * color[index(c)] + (options_.hyperstatic[index(c)] ? 0 : 1));
+      style.push_back(c < 0 ? 0 : 1 + 2 * color[idx(c)] + (options_.hyperstatic[idx(c)] ? 0 : 1));
     canvas.begin_group("disks");
     pen.disks(canvas, style, paints);
     canvas.end_group();
@@ -32,7 +33,7 @@ class ClustersContent final : public PictureContent {
     std::array<std::vector<DrawnLink>, kCurves.size()> inside;
     for (std::size_t l = 0; l < pen.packing().links.size(); ++l) {
       const std::int32_t c = options_.of_link[l];
-      (c < 0 ? between : inside[color[index(c)]]).push_back({&pen.packing().links[l], width});
+      (c < 0 ? between : inside[color[idx(c)]]).push_back({&pen.packing().links[l], width});
     }
     canvas.begin_group("links");
     pen.links(canvas, between, kFaint);
@@ -58,24 +59,21 @@ class ClustersContent final : public PictureContent {
   }
 
  private:
-  static std::size_t index(std::int32_t cluster) { return static_cast<std::size_t>(cluster); }
-
   // In order of the clusters, the first colour that no neighbour has; the first cluster keeps the first colour.
   std::vector<std::size_t> colors(const Packing<2>& packing) const {
     std::vector<std::set<std::int32_t>> neighbours(options_.hyperstatic.size());
     const auto meet = [&](std::int32_t a, std::int32_t b) {
-      if (a >= 0 && b >= 0 && a != b) neighbours[index(a)].insert(b), neighbours[index(b)].insert(a);
+      if (a >= 0 && b >= 0 && a != b) neighbours[idx(a)].insert(b), neighbours[idx(b)].insert(a);
     };
     for (std::size_t l = 0; l < packing.links.size(); ++l) {
-      const std::int32_t i = options_.of_grain[index(packing.links[l].i)],
-                         j = options_.of_grain[index(packing.links[l].j)];
+      const std::int32_t i = options_.of_grain[idx(packing.links[l].i)], j = options_.of_grain[idx(packing.links[l].j)];
       meet(i, j), meet(i, options_.of_link[l]), meet(j, options_.of_link[l]);
     }
     std::vector<std::size_t> color(neighbours.size(), kCurves.size());
     for (std::size_t c = 0; c < color.size(); ++c) {
       std::array<bool, kCurves.size()> used{};
       for (const std::int32_t n : neighbours[c])
-        if (color[index(n)] < kCurves.size()) used[color[index(n)]] = true;
+        if (color[idx(n)] < kCurves.size()) used[color[idx(n)]] = true;
       const auto first = static_cast<std::size_t>(std::find(used.begin(), used.end(), false) - used.begin());
       color[c] = first < used.size() ? first : c % kCurves.size();
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "analysis/figure/chart_range.hpp"
+#include "geometry/base/index.hpp"
 
 namespace isostat {
 namespace {
@@ -118,11 +119,11 @@ void draw_cells(Canvas& canvas, const ChartFrame& frame, const Curve& curve) {
     const double t = high > low ? std::log(curve.y[i] / low) / std::log(high / low) : 1;
     const std::size_t r = i / columns, c = i % columns;
     const Vec2 a = frame.page(curve.x[r], curve.x2[c]), b = frame.page(curve.x[r + 1], curve.x2[c + 1]);
-    levels[static_cast<std::size_t>(std::lround(t * (kLevels - 1)))].push_back({a, {{b[0], a[1]}}, b, {{a[0], b[1]}}});
+    levels[idx(std::lround(t * (kLevels - 1)))].push_back({a, {{b[0], a[1]}}, b, {{a[0], b[1]}}});
   }
   for (int level = 0; level < kLevels; ++level) {  // the outline closes the seams of antialiasing
     const Color color = sequential(static_cast<double>(level) / (kLevels - 1));
-    canvas.polygons(levels[static_cast<std::size_t>(level)], {color, Stroke{color, 0.4, {}}});
+    canvas.polygons(levels[idx(level)], {color, Stroke{color, 0.4, {}}});
   }
 }
 

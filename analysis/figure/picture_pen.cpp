@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "analysis/figure/nice_numbers.hpp"
+#include "geometry/base/index.hpp"
 
 namespace isostat {
 
@@ -31,7 +32,7 @@ void PicturePen::links(Canvas& canvas, const std::vector<DrawnLink>& links, cons
   for (const DrawnLink& drawn : links) {
     const Link<2>* link = drawn.link;
     const double width = drawn.width;  // [pt] no structured binding: clang 14 captures none in a lambda
-    const Vec2 from = frame_.wrap(packing_.bodies.position[static_cast<std::size_t>(link->i)]);
+    const Vec2 from = frame_.wrap(packing_.bodies.position[idx(link->i)]);
     const Vec2 to = from + frame_.branch(packing_, *link);
     const double half = width / (2 * frame_.scale());
     Vec2 low, high;

@@ -2,10 +2,10 @@
 
 #include <cstddef>
 
+#include "geometry/base/index.hpp"
+
 namespace isostat {
 namespace {
-
-std::size_t at(std::int32_t k) { return static_cast<std::size_t>(k); }
 
 // Links of each body, by index, in compressed rows; a link to an own image appears twice.
 struct Incidence {
@@ -17,13 +17,13 @@ Incidence incidence(const Packing<D>& packing, const std::vector<char>& counted)
   Incidence inc;
   inc.start.assign(packing.bodies.size() + 1, 0);
   for (std::size_t l = 0; l < packing.links.size(); ++l)
-    if (counted[l]) ++inc.start[at(packing.links[l].i) + 1], ++inc.start[at(packing.links[l].j) + 1];
+    if (counted[l]) ++inc.start[idx(packing.links[l].i) + 1], ++inc.start[idx(packing.links[l].j) + 1];
   for (std::size_t k = 0; k + 1 < inc.start.size(); ++k) inc.start[k + 1] += inc.start[k];
   inc.link.resize(inc.start.back());
   std::vector<std::size_t> next(inc.start.begin(), inc.start.end() - 1);
   for (std::size_t l = 0; l < packing.links.size(); ++l)
     if (counted[l])
-      for (const std::int32_t end : {packing.links[l].i, packing.links[l].j}) inc.link[next[at(end)]++] = l;
+      for (const std::int32_t end : {packing.links[l].i, packing.links[l].j}) inc.link[next[idx(end)]++] = l;
   return inc;
 }
 
@@ -40,14 +40,14 @@ void remove_rattlers(const Packing<D>& packing, Coordination& c, int least, bool
     const std::int32_t k = leaving.back();
     leaving.pop_back();
     ++c.rattlers;
-    for (std::size_t e = inc.start[at(k)]; e < inc.start[at(k) + 1]; ++e) {
+    for (std::size_t e = inc.start[idx(k)]; e < inc.start[idx(k) + 1]; ++e) {
       const std::size_t l = inc.link[e];
       if (cut[l]) continue;
       cut[l] = 1;
       for (const std::int32_t end : {packing.links[l].i, packing.links[l].j}) {
-        --c.backbone_degree[at(end)];
-        if (recursive && !c.rattler[at(end)] && c.backbone_degree[at(end)] < least)
-          c.rattler[at(end)] = 1, leaving.push_back(end);
+        --c.backbone_degree[idx(end)];
+        if (recursive && !c.rattler[idx(end)] && c.backbone_degree[idx(end)] < least)
+          c.rattler[idx(end)] = 1, leaving.push_back(end);
       }
     }
   }
@@ -70,7 +70,7 @@ Coordination coordination(const Packing<D>& packing, const ForceReading& reading
       continue;
     }
     ++(link.kind == LinkKind::distant ? c.distant : c.contacts);
-    ++c.degree[at(link.i)], ++c.degree[at(link.j)];
+    ++c.degree[idx(link.i)], ++c.degree[idx(link.j)];
   }
   if (loaded_only)
     remove_rattlers(packing, c, 2, true);
@@ -79,7 +79,7 @@ Coordination coordination(const Packing<D>& packing, const ForceReading& reading
   else
     c.backbone_degree = c.degree;
   for (std::size_t l = 0; l < packing.links.size(); ++l)
-    c.backbone_links += c.counted[l] && !c.rattler[at(packing.links[l].i)] && !c.rattler[at(packing.links[l].j)];
+    c.backbone_links += c.counted[l] && !c.rattler[idx(packing.links[l].i)] && !c.rattler[idx(packing.links[l].j)];
   return c;
 }
 

@@ -8,6 +8,7 @@
 #include "analysis/network/sections.hpp"
 #include "dem/state/certificate.hpp"
 #include "dem/state/link.hpp"
+#include "geometry/base/index.hpp"
 
 namespace isostat {
 namespace {
@@ -19,7 +20,7 @@ constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 double law_residual(const State& state, double scale) {
   double largest = 0;
   for (const Link<2>& link : state.packing.links) {
-    const auto i = static_cast<std::size_t>(link.i), j = static_cast<std::size_t>(link.j);
+    const auto i = idx(link.i), j = idx(link.j);
     Vec2 r = state.packing.bodies.position[j] - state.packing.bodies.position[i];
     if (state.packing.cell) r += state.packing.cell->offset(link.shift);
     const double gap = link_frame(r[0], r[1], state.packing.bodies.radius[i], state.packing.bodies.radius[j]).gap;

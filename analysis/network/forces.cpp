@@ -8,6 +8,7 @@
 #include "analysis/network/force_scale.hpp"
 #include "analysis/network/histogram.hpp"
 #include "analysis/network/sections.hpp"
+#include "geometry/base/index.hpp"
 
 namespace isostat {
 namespace {
@@ -111,7 +112,7 @@ std::vector<Table> forces_tables(const AnalysisInput& input, const AnalysisOptio
   const Packing<2>& packing = input.packing();
   Table table{"links", {"i", "j", "distant", "h", "N", "T", "M", "F", "angle"}, {}};
   for (const Link<2>& link : packing.links) {
-    const auto id = [&](std::int32_t k) { return static_cast<double>(packing.bodies.id[static_cast<std::size_t>(k)]); };
+    const auto id = [&](std::int32_t k) { return static_cast<double>(packing.bodies.id[idx(k)]); };
     table.rows.push_back({id(link.i), id(link.j), static_cast<double>(link.kind == LinkKind::distant), link.gap,
                           link.normal_force, link.tangential_force, link.moment, force_magnitude(link),
                           angle_to_normal(link)});

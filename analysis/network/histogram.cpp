@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/base/index.hpp"
+
 namespace isostat {
 namespace {
 
@@ -32,9 +34,8 @@ Bins anchored_bins(const std::vector<double>& values, double width) {
 
 Histogram anchored_histogram(const std::vector<double>& values, double width) {
   const Bins bins = anchored_bins(values, width);
-  Histogram h{bins.edges(), std::vector<double>(static_cast<std::size_t>(bins.count), 0.0)};
-  for (const double v : values)
-    h.density[static_cast<std::size_t>(bins.index(v))] += 1 / (bins.width * static_cast<double>(values.size()));
+  Histogram h{bins.edges(), std::vector<double>(idx(bins.count), 0.0)};
+  for (const double v : values) h.density[idx(bins.index(v))] += 1 / (bins.width * static_cast<double>(values.size()));
   return h;
 }
 
@@ -44,7 +45,7 @@ Histogram histogram_over(const std::vector<double>& values, std::vector<double> 
   for (const double v : values) {
     if (!(v >= h.edges.front() && v <= h.edges.back())) continue;
     const auto above = std::upper_bound(h.edges.begin(), h.edges.end(), v) - h.edges.begin();
-    h.density[std::min(static_cast<std::size_t>(above) - 1, h.density.size() - 1)] += 1;
+    h.density[std::min(idx(above) - 1, h.density.size() - 1)] += 1;
   }
   for (std::size_t k = 0; k < h.density.size(); ++k)
     h.density[k] /= static_cast<double>(values.size()) * (h.edges[k + 1] - h.edges[k]);
@@ -60,10 +61,9 @@ Histogram2 anchored_histogram_2(const std::vector<double>& x, const std::vector<
     bx = anchored_bins(x, w), by = anchored_bins(y, w);
   }
   Histogram2 h{bx.edges(), by.edges(), {}};
-  h.density.assign(static_cast<std::size_t>(bx.count), std::vector<double>(static_cast<std::size_t>(by.count), 0.0));
+  h.density.assign(idx(bx.count), std::vector<double>(idx(by.count), 0.0));
   const double weight = 1 / (w * w * static_cast<double>(x.size()));
-  for (std::size_t k = 0; k < x.size(); ++k)
-    h.density[static_cast<std::size_t>(bx.index(x[k]))][static_cast<std::size_t>(by.index(y[k]))] += weight;
+  for (std::size_t k = 0; k < x.size(); ++k) h.density[idx(bx.index(x[k]))][idx(by.index(y[k]))] += weight;
   return h;
 }
 

@@ -3,9 +3,10 @@
 #include <numeric>
 #include <utility>
 
+#include "geometry/base/index.hpp"
+
 namespace isostat {
 namespace {
-std::size_t at(std::int32_t k) { return static_cast<std::size_t>(k); }
 
 template <int D>
 ImageShift<D> sum(const ImageShift<D>& a, const ImageShift<D>& b, int sign = 1) {
@@ -24,12 +25,12 @@ template <int D>
 std::int32_t WindingClusters<D>::find(std::int32_t body, ImageShift<D>& shift) {
   path_.clear();
   std::int32_t top = body;
-  while (parent_[at(top)] != top) path_.push_back(top), top = parent_[at(top)];
+  while (parent_[idx(top)] != top) path_.push_back(top), top = parent_[idx(top)];
   ImageShift<D> from_top{};
   for (auto k = path_.rbegin(); k != path_.rend(); ++k) {
-    from_top = sum<D>(from_top, offset_[at(*k)]);
-    offset_[at(*k)] = from_top;
-    parent_[at(*k)] = top;
+    from_top = sum<D>(from_top, offset_[idx(*k)]);
+    offset_[idx(*k)] = from_top;
+    parent_[idx(*k)] = top;
   }
   shift = from_top;
   return top;
@@ -48,10 +49,10 @@ ImageShift<D> WindingClusters<D>::join(std::int32_t i, std::int32_t j, const Ima
   // In the copies of the link, root a sits at -of_i and root b at shift - of_j.
   ImageShift<D> a_to_b = sum<D>(sum<D>(of_i, shift), of_j, -1);
   if (a == b) return a_to_b;
-  if (size_[at(a)] < size_[at(b)]) std::swap(a, b), a_to_b = sum<D>(ImageShift<D>{}, a_to_b, -1);
-  parent_[at(b)] = a;
-  offset_[at(b)] = a_to_b;
-  size_[at(a)] += size_[at(b)];
+  if (size_[idx(a)] < size_[idx(b)]) std::swap(a, b), a_to_b = sum<D>(ImageShift<D>{}, a_to_b, -1);
+  parent_[idx(b)] = a;
+  offset_[idx(b)] = a_to_b;
+  size_[idx(a)] += size_[idx(b)];
   return {};
 }
 

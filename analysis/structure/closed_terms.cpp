@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "analysis/structure/mean_overlap.hpp"
+#include "geometry/base/index.hpp"
 
 namespace isostat {
 namespace {
@@ -30,13 +31,13 @@ ClosedTerms::ClosedTerms(const DiskComplex& c, std::span<const double> radius, d
   const auto& t = c.triangulation;
   for (std::size_t i = 0; i < c.size(); ++i)
     for (auto slot = t.first[i]; slot < t.first[i + 1]; ++slot) {
-      const auto n = static_cast<std::size_t>(slot);
+      const auto n = idx(slot);
       const auto& to = t.neighbour[n];
-      if (c.edge[n] == EdgeState::open || static_cast<std::size_t>(to.site) <= i) continue;
-      const auto j = static_cast<std::size_t>(to.site);
+      if (c.edge[n] == EdgeState::open || idx(to.site) <= i) continue;
+      const auto j = idx(to.site);
       const double d = norm(c.branch[n]), sum = c.radius[i] + c.radius[j];
       if (sum - d > deepest || d <= std::abs(c.radius[i] - c.radius[j]) || r_max + d + sum >= shorter) continue;
-      pair_.push_back({static_cast<std::size_t>(c.input[i]), static_cast<std::size_t>(c.input[j]), d});
+      pair_.push_back({idx(c.input[i]), idx(c.input[j]), d});
       reach_ = std::max(reach_, d + sum);
       walls_ += hidden_length(c.radius[i], c.radius[j], d);
     }
@@ -61,7 +62,7 @@ double ClosedTerms::overlap(double r) const {
 void ClosedTerms::tabulate(double k_max) {
   pieces_ = static_cast<int>(std::ceil(k_max * reach_ / kPhase)) + 1;
   step_ = k_max / (pieces_ - 1);
-  value_.assign(static_cast<std::size_t>(pieces_ * kNodes), 0);
+  value_.assign(idx(pieces_ * kNodes), 0);
   std::vector<double> form(radius_.size());
   for (int n = 0; n < pieces_ * kNodes; ++n) {
     const double k = step_ * (n / kNodes + 0.5 * (1 + std::cos(kPi * (n % kNodes + 0.5) / kNodes)));
@@ -71,7 +72,7 @@ void ClosedTerms::tabulate(double k_max) {
       sum += form[i] * form[i];
     }
     for (const auto& p : pair_) sum += 2 * form[p.i] * form[p.j] * ::j0(k * p.distance);
-    value_[static_cast<std::size_t>(n)] = sum;
+    value_[idx(n)] = sum;
   }
 }
 
@@ -88,7 +89,7 @@ double ClosedTerms::spectrum(double k) const {
   const double t = 2 * (k / step_ - p) - 1;
   double top = 0, bottom = 0;
   for (std::size_t j = 0; j < kNodes; ++j) {
-    const double off = t - nodes[0][j], f = value_[static_cast<std::size_t>(p * kNodes) + j];
+    const double off = t - nodes[0][j], f = value_[idx(p * kNodes) + j];
     if (off == 0) return f;
     const double w = nodes[1][j] / off;
     top += w * f, bottom += w;

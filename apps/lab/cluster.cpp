@@ -10,6 +10,7 @@
 #include "apps/lab/experiments.hpp"
 #include "dem/disks/lab/cluster.hpp"
 #include "dem/input_error.hpp"
+#include "geometry/base/index.hpp"
 
 namespace isostat {
 namespace {
@@ -35,7 +36,7 @@ Json cluster_json(const lab::ClusterResult& r) {
   for (std::int64_t p = 0; p < kDisks; ++p)
     for (std::int64_t q = p + 1; q < kDisks; ++q)
       for (const Link<2>& l : r.state.packing.links) {
-        const auto i = b.id[static_cast<std::size_t>(l.i)], j = b.id[static_cast<std::size_t>(l.j)];
+        const auto i = b.id[idx(l.i)], j = b.id[idx(l.j)];
         if (std::min(i, j) == p && std::max(i, j) == q && l.kind != LinkKind::distant)
           contacts.push_back({{"i", p}, {"j", q}, {"h", l.gap}, {"N", l.normal_force}, {"T", l.tangential_force}});
       }
