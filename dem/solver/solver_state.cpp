@@ -40,7 +40,7 @@ void Solver::load_bodies(const State& state) {
   }
   std::vector<PairMemory> springs;
   for (const Link<2>& l : state.packing.links)
-    if (l.kind != LinkKind::distant) {
+    if (is_contact(l.kind)) {
       const bool swap = l.i > l.j;
       springs.push_back({swap ? l.j : l.i, swap ? l.i : l.j, swap ? ImageShift<2>{-l.shift[0], -l.shift[1]} : l.shift,
                          l.tangential_force, swap ? -l.moment : l.moment});

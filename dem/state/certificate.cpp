@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "dem/state/link.hpp"
+#include "dem/state/link_ends.hpp"
 
 namespace isostat {
 namespace {
@@ -13,13 +13,6 @@ struct BodyLoad {
   double fx = 0, fy = 0, moment = 0;
   int links = 0;
 };
-
-LinkFrame<double> frame_of(const Packing<2>& packing, const Link<2>& link) {
-  const auto i = static_cast<std::size_t>(link.i), j = static_cast<std::size_t>(link.j);
-  Vec2 r = packing.bodies.position[j] - packing.bodies.position[i];
-  if (packing.cell) r += packing.cell->offset(link.shift);
-  return link_frame(r[0], r[1], packing.bodies.radius[i], packing.bodies.radius[j]);
-}
 
 // max that keeps a NaN: a run that has blown up must never look balanced.
 double largest_of(double a, double b) { return std::isnan(a) || b <= a ? a : b; }
@@ -102,7 +95,7 @@ StressTensor measured_stress(const Packing<2>& packing) {
   StressTensor s;
   add_kinetic(s, packing.bodies);
   for (const Link<2>& link : packing.links) {
-    const LinkFrame<double> f = frame_of(packing, link);
+    const LinkFrame<double> f = frame(ends(packing, link));
     add_virial(s, f, link_load(f, link.normal_force, link.tangential_force, link.moment));
   }
   const double area = packing.cell.value().measure();
@@ -121,14 +114,14 @@ Certificate evaluate_certificate(const Packing<2>& packing, const LawParameters&
   std::vector<BodyLoad> loads(packing.bodies.size());
   StressTensor stress;
   for (const Link<2>& link : packing.links) {
-    const LinkFrame<double> f = frame_of(packing, link);
+    const LinkFrame<double> f = frame(ends(packing, link));
     const LinkLoad<double> load = link_load(f, link.normal_force, link.tangential_force, link.moment);
     BodyLoad& on_i = loads[static_cast<std::size_t>(link.i)];
     BodyLoad& on_j = loads[static_cast<std::size_t>(link.j)];
     on_i.fx -= load.fx, on_i.fy -= load.fy, on_i.moment += load.moment_i, ++on_i.links;
     on_j.fx += load.fx, on_j.fy += load.fy, on_j.moment += load.moment_j, ++on_j.links;
     add_virial(stress, f, load);
-    if (link.kind == LinkKind::distant) continue;
+    if (!is_contact(link.kind)) continue;
     const YieldMargin m = yield_margin(link.gap, link.tangential_force, link.moment, law);
     c.sliding += m.sliding <= kYieldTolerance;
     c.rolling_yielded += m.rolling <= kYieldTolerance;
