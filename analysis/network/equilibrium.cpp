@@ -7,7 +7,8 @@
 
 #include "analysis/network/force_scale.hpp"
 #include "analysis/network/sections.hpp"
-#include "dem/state/certificate.hpp"
+#include "dem/disks/at_rest.hpp"
+#include "dem/disks/certificate.hpp"
 #include "dem/state/link_ends.hpp"
 
 namespace isostat {
@@ -21,7 +22,7 @@ double law_residual(const State& state, double scale) {
   double largest = 0;
   for (const Link<2>& link : state.packing.links) {
     const double gap = frame(ends(state.packing, link)).gap;
-    largest = std::max(largest, std::abs(link.normal_force - static_normal_force(gap, state.law)));
+    largest = std::max(largest, std::abs(link.normal_force - at_rest(state.law, gap).force));
   }
   return largest / scale;
 }

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "dem/input_error.hpp"
+#include "dem/disks/certificate.hpp"
 #include "dem/run/stage_opening.hpp"
 #include "dem/state/clusters.hpp"
 #include "dem/state/contact_set.hpp"

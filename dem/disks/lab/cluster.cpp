@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "dem/disks/certificate.hpp"
 #include "dem/disks/lab/few_bodies.hpp"
-#include "dem/state/certificate.hpp"
 
 namespace isostat::lab {
 namespace {
