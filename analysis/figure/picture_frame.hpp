@@ -24,11 +24,6 @@ class PictureFrame {
     return {place_[0] + scale_ * (r[0] - origin_[0]), place_[1] + scale_ * (size_[1] - (r[1] - origin_[1]))};
   }
   Vec2 wrap(const Vec2& r) const { return cell_ ? cell_->wrap(r) : r; }
-  Vec2 branch(const Packing<2>& packing, const Link<2>& link) const {  // r_j + shift L - r_i
-    const auto& r = packing.bodies.position;
-    const Vec2 d = r[static_cast<std::size_t>(link.j)] - r[static_cast<std::size_t>(link.i)];
-    return cell_ ? d + cell_->offset(link.shift) : d;
-  }
 
   // Calls draw(offset) for each lattice offset at which something inside [low, high] shows in the window.
   template <class Draw>

@@ -1,5 +1,7 @@
 #include "analysis/figure/picture_pen.hpp"
 
+#include "dem/state/link_ends.hpp"
+
 #include <algorithm>
 
 #include "analysis/figure/nice_numbers.hpp"
@@ -33,7 +35,7 @@ void PicturePen::links(Canvas& canvas, const std::vector<DrawnLink>& links, cons
     const Link<2>* link = drawn.link;
     const double width = drawn.width;  // [pt] no structured binding: clang 14 captures none in a lambda
     const Vec2 from = frame_.wrap(packing_.bodies.position[idx(link->i)]);
-    const Vec2 to = from + frame_.branch(packing_, *link);
+    const Vec2 to = from + ends(packing_, *link).branch;
     const double half = width / (2 * frame_.scale());
     Vec2 low, high;
     for (int k = 0; k < 2; ++k) low[k] = std::min(from[k], to[k]) - half, high[k] = std::max(from[k], to[k]) + half;

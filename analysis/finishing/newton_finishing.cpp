@@ -7,7 +7,7 @@
 #include "analysis/finishing/implicit_step.hpp"
 #include "analysis/finishing/settling_network.hpp"
 #include "analysis/vector_algebra.hpp"
-#include "dem/state/certificate.hpp"
+
 #include "dem/state/energy.hpp"
 
 namespace isostat {
@@ -18,9 +18,10 @@ using Vector = std::vector<double>;
 constexpr double kFirstStep = 0.1;  // [T0] length of the first implicit step
 // The attraction does work F0 D0 / 2 when two grains catch each other, at V* = sqrt(F0 D0 / m) and with contact forces
 // of ten F0: what is left by that in the force network depends on dynamics, which long implicit steps don't have.
-constexpr double kNearCapture = 0.5;     // [T0] how far before it the implicit steps stop
-constexpr double kShortestStep = 1e-4;   // [T0] shorter ones are what the explicit solver is for
-constexpr double kFactorisation = 200;   // [explicit steps] what one costs, with its linear solve (docs/equilibrium.md)
+constexpr double kNearCapture = 0.5;    // [T0] how far before it the implicit steps stop
+constexpr double kShortestStep = 1e-4;  // [T0] shorter ones are what the explicit solver is for
+constexpr double kFactorisation =
+    200;  // [explicit steps] what one costs, with its linear solve (docs/measured/equilibrium.md)
 constexpr std::int64_t kOnTrial = 40;    // [factorisations] between two looks at whether they are worth it
 constexpr int kEasyIterations = 6;       // of Newton
 constexpr int kMostSteps = 400;          // that follow the motion
@@ -30,7 +31,7 @@ constexpr double kLonger = 32;           // [-] then steps grow beyond that, to 
 constexpr double kStepTolerance = 1e-3;  // of the force tolerance: how well an implicit step's equations are met
 constexpr double kDriftLeft = 1e-2;      // of the kinetic tolerance. Vibrations die at once here, but they are most
                                          // of the energy that lets floppy modes drift on under the bare law: to
-                                         // stop at the tolerance itself would miss contacts (docs/equilibrium.md)
+                                     // stop at the tolerance itself would miss contacts (docs/measured/equilibrium.md)
 constexpr double kFreed = 10, kCaptures = 10;  // the kinetic energy may reach so many times its start, and the work of
                                                // so many attractions F0 D0 beside; beyond it is a collapse
 constexpr double kShift = 1e-9;    // of K_N: inertia / dt^2 is never less, so that floppy modes stay regular

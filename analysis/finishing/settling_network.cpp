@@ -5,7 +5,8 @@
 #include <numeric>
 #include <tuple>
 
-#include "dem/state/certificate.hpp"
+#include "dem/disks/at_rest.hpp"
+#include "dem/state/balance.hpp"
 #include "dem/state/touching.hpp"
 
 namespace isostat {
@@ -184,20 +185,19 @@ SettlingNetwork::Response SettlingNetwork::respond(const Pair& p, const Vec2& r,
   if (!((s.held ? p.gap : f.gap) < 0)) {
     s.active = law_.attraction > 0 && (s.held ? p.gap : f.gap) < law_.attraction_range;
     if (!s.active) return s;
-    s.normal = distant_normal_force(f.gap, law_);
-    s.normal_stiffness = -law_.attraction / law_.attraction_range;
+    const AtRest normal = distant(law_, f.gap);
+    s.normal = normal.force, s.normal_stiffness = normal.stiffness;
     return s;
   }
   s.active = true;
-  s.normal = contact_normal_force(f.gap, law_);
-  s.normal_stiffness = law_.normal_stiffness;
+  const AtRest normal = contact(law_, f.gap);
+  s.normal = normal.force, s.normal_stiffness = normal.stiffness;
   if (!(law_.friction > 0) && !(law_.rolling_friction > 0)) return s;
-  const double repulsion = -law_.normal_stiffness * f.gap;
   // A held contact does not begin to slip; one that slips already goes on under its last limit.
-  const auto limit = [&](double coefficient, double force) {
-    if (!s.held) return coefficient * repulsion;
-    const double last = -coefficient * law_.normal_stiffness * p.gap;
-    return std::abs(force) < (1 - kSlips) * last ? INFINITY : last;
+  const Limits now = limits(law_, f.gap), before = limits(law_, p.gap);
+  const auto limit = [&](double Limits::*axis, double force) {
+    if (!s.held) return now.*axis;
+    return std::abs(force) < (1 - kSlips) * before.*axis ? INFINITY : before.*axis;
   };
   const double lasts = p.gap >= 0 ? f.gap / (f.gap - p.gap) : 1.0;  // part of the step in contact
   const double lasts_by_gap = p.gap >= 0 ? -p.gap / ((f.gap - p.gap) * (f.gap - p.gap)) : 0.0;
@@ -207,7 +207,7 @@ SettlingNetwork::Response SettlingNetwork::respond(const Pair& p, const Vec2& r,
     const double along = (p.branch[0] * r[1] - p.branch[1] * r[0]) / distance;  // t_mean . (r - r_accepted)
     const double slip = along - distance / sum * turned;
     const Yielding y =
-        clamped(p.tangential - law_.tangential_stiffness * lasts * slip, limit(law_.friction, p.tangential));
+        clamped(p.tangential - law_.tangential_stiffness * lasts * slip, limit(&Limits::tangential, p.tangential));
     s.tangential = y.force, s.slides = y.yields;
     if (y.yields) {
       if (!s.held) s.shear[0] = -std::copysign(law_.friction * law_.normal_stiffness, y.force);
@@ -222,8 +222,7 @@ SettlingNetwork::Response SettlingNetwork::respond(const Pair& p, const Vec2& r,
   }
   if (law_.rolling_friction > 0) {
     const double turn = theta_j - theta_i;
-    const Yielding y =
-        clamped(p.moment - law_.rolling_stiffness * lasts * turn, limit(law_.rolling_friction, p.moment));
+    const Yielding y = clamped(p.moment - law_.rolling_stiffness * lasts * turn, limit(&Limits::rolling, p.moment));
     s.moment = y.force, s.yields = y.yields;
     if (y.yields) {
       if (!s.held) s.roll[0] = -std::copysign(law_.rolling_friction * law_.normal_stiffness, y.force);
@@ -276,7 +275,7 @@ SettlingNetwork::Tangent SettlingNetwork::tangent(const Pair& p, const Response&
   if (symmetric && s.slides) shear = {};
   if (symmetric && s.yields) roll = {};
   // What turns with the frame. Links that hold pass through forces far from those of the step's end on the way there.
-  const double normal = s.held ? static_normal_force(p.gap, law_) : s.normal;
+  const double normal = s.held ? at_rest(law_, p.gap).force : s.normal;
   const double tangential = s.held ? p.tangential : s.tangential;
   k[0] = {s.normal_stiffness, tangential / r, 0, 0};
   k[1][1] = -normal / r;
@@ -454,7 +453,7 @@ void SettlingNetwork::store(State& state, const std::vector<double>& velocity) c
     Link<2> l;
     l.i = order_[at(p.i)], l.j = order_[at(p.j)], l.shift = p.shift, l.gap = s.frame.gap;
     l.normal_force = s.normal, l.tangential_force = s.tangential, l.moment = s.moment;
-    l.kind = link_kind(l.gap, l.tangential_force, l.moment, state.law);
+    l.kind = kind_of(state.law, l.gap, l.tangential_force, l.moment);
     state.packing.links.push_back(l);
   }
   const StressTensor stress = measured_stress(state.packing);

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/network/sections.hpp"
-#include "dem/state/certificate.hpp"
-#include "dem/state/link.hpp"
-#include "geometry/base/index.hpp"
+#include "dem/disks/at_rest.hpp"
+#include "dem/disks/certificate.hpp"
+#include "dem/state/link_ends.hpp"
 
 namespace isostat {
 namespace {
@@ -20,11 +20,8 @@ constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 double law_residual(const State& state, double scale) {
   double largest = 0;
   for (const Link<2>& link : state.packing.links) {
-    const auto i = idx(link.i), j = idx(link.j);
-    Vec2 r = state.packing.bodies.position[j] - state.packing.bodies.position[i];
-    if (state.packing.cell) r += state.packing.cell->offset(link.shift);
-    const double gap = link_frame(r[0], r[1], state.packing.bodies.radius[i], state.packing.bodies.radius[j]).gap;
-    largest = std::max(largest, std::abs(link.normal_force - static_normal_force(gap, state.law)));
+    const double gap = frame(ends(state.packing, link)).gap;
+    largest = std::max(largest, std::abs(link.normal_force - at_rest(state.law, gap).force));
   }
   return largest / scale;
 }
@@ -35,7 +32,7 @@ nlohmann::ordered_json equilibrium_section(const AnalysisInput& input, const Ana
   const State& state = input.state;
   const Certificate c = evaluate_certificate(state);
   const auto contacts = std::count_if(state.packing.links.begin(), state.packing.links.end(),
-                                      [](const Link<2>& l) { return l.kind != LinkKind::distant; });
+                                      [](const Link<2>& l) { return is_contact(l.kind); });
   const bool yields = contacts > 0 && (state.law.friction > 0 || state.law.rolling_friction > 0);
   nlohmann::ordered_json json;
   json["max_force"] = c.max_force;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dem/state/certificate.hpp"
+#include "dem/disks/certificate.hpp"
 
 namespace isostat {
 

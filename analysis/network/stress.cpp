@@ -6,7 +6,7 @@
 
 #include "analysis/network/coordination.hpp"
 #include "analysis/network/sections.hpp"
-#include "dem/state/certificate.hpp"
+#include "dem/state/balance.hpp"
 
 namespace isostat {
 namespace {

@@ -37,7 +37,7 @@ Json cluster_json(const lab::ClusterResult& r) {
     for (std::int64_t q = p + 1; q < kDisks; ++q)
       for (const Link<2>& l : r.state.packing.links) {
         const auto i = b.id[idx(l.i)], j = b.id[idx(l.j)];
-        if (std::min(i, j) == p && std::max(i, j) == q && l.kind != LinkKind::distant)
+        if (std::min(i, j) == p && std::max(i, j) == q && is_contact(l.kind))
           contacts.push_back({{"i", p}, {"j", q}, {"h", l.gap}, {"N", l.normal_force}, {"T", l.tangential_force}});
       }
   return {{"contacts", contacts},

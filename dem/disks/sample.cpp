@@ -92,12 +92,11 @@ State state_from_file(const Scene& scene, std::uint64_t seed) {
   const Bodies<2>& b = state.packing.bodies;
   for (const Link<2>& l : touching_links(state.packing, 0.0)) {
     const auto i = static_cast<std::size_t>(l.i), j = static_cast<std::size_t>(l.j);
-    const Vec2 r = b.position[j] + state.packing.cell->offset(l.shift) - b.position[i];
     const double sum = b.radius[i] + b.radius[j];
-    if (norm(r) < (1 - kMostOverlapAtStart) * sum)
+    if (l.gap < -kMostOverlapAtStart * sum)
       throw InputError(path, 0, "grains.file", path,
                        "grains " + std::to_string(b.id[i]) + " and " + std::to_string(b.id[j]) + " overlap by " +
-                           std::to_string(sum - norm(r)) + " a; at most a tenth of the sum of radii is allowed");
+                           std::to_string(-l.gap) + " a; at most a tenth of the sum of radii is allowed");
   }
   state.time_step = time_step(scene, state.law.normal_stiffness, b);
   const double smallest = 2 * *std::min_element(b.radius.begin(), b.radius.end());

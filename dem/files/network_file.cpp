@@ -11,6 +11,7 @@
 
 #include "dem/files/atomic_file.hpp"
 #include "dem/input_error.hpp"
+#include "dem/state/link_ends.hpp"
 #include "dem/state/touching.hpp"
 
 namespace isostat {
@@ -208,15 +209,11 @@ class NetworkParser {
   void add_link(int line, std::int32_t i, std::int32_t j, LinkKind kind, ImageShift<D> shift, bool shift_given) {
     const Bodies<D>& b = file_.packing.bodies;
     const auto ui = static_cast<std::size_t>(i), uj = static_cast<std::size_t>(j);
-    Vec<D> branch = b.position[uj] - b.position[ui];
-    if (file_.packing.cell) {
-      if (!shift_given) shift = file_.packing.cell->nearest_image(branch);
-      branch += file_.packing.cell->offset(shift);
-    }
+    if (file_.packing.cell && !shift_given) shift = file_.packing.cell->nearest_image(b.position[uj] - b.position[ui]);
     const std::string pair = std::to_string(b.id[ui]) + " " + std::to_string(b.id[uj]);
     if (i == j && shift == ImageShift<D>{})
       return fault(line, "contact", pair, "a grain cannot touch itself except through an image (S1 S2)");
-    const double distance = norm(branch);
+    const double distance = norm(branch(file_.packing, ui, uj, shift));
     if (!(distance > 0) || !std::isfinite(distance))
       return fault(line, "contact", pair, "the two centres coincide (or are out of range): no normal direction");
 

@@ -11,6 +11,7 @@
 #include "dem/files/network_file.hpp"
 #include "dem/files/state_file.hpp"
 #include "dem/input_error.hpp"
+#include "dem/state/link_ends.hpp"
 #include "dem/state/state_check.hpp"
 #include "dem/state/touching.hpp"
 
@@ -84,8 +85,7 @@ void read_network_into(PackingFile& file, const std::string& path, const Packing
       const auto i = static_cast<std::size_t>(link.i), j = static_cast<std::size_t>(link.j);
       const Bodies<D>& b = network.packing.bodies;
       link.shift = network.packing.cell->nearest_image(b.position[j] - b.position[i]);
-      const Vec<D> branch = b.position[j] - b.position[i] + network.packing.cell->offset(link.shift);
-      link.gap = norm(branch) - b.radius[i] - b.radius[j];
+      link.gap = norm(branch(network.packing, i, j, link.shift)) - b.radius[i] - b.radius[j];
     }
   }
   set_packing(file, std::move(network.packing), path);

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <vector>
 
+#include "dem/state/balance.hpp"
 #include "dem/state/certificate.hpp"
 #include "dem/state/clusters.hpp"
 #include "dem/state/energy.hpp"

@@ -6,7 +6,7 @@
 
 #include "dem/disks/sample.hpp"
 #include "dem/solver/random.hpp"
-#include "dem/state/certificate.hpp"
+#include "dem/state/balance.hpp"
 #include "dem/state/energy.hpp"
 
 namespace isostat {

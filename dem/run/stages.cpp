@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "dem/input_error.hpp"
+#include "dem/disks/certificate.hpp"
 #include "dem/run/stage_opening.hpp"
 #include "dem/state/clusters.hpp"
 #include "dem/state/contact_set.hpp"
@@ -30,8 +31,7 @@ double cpu_seconds(int threads) {
 // Contacts that carry a force, or with cohesion all of them. Without it the contacts of rattlers come and go.
 std::size_t loaded_contacts(const State& s) {
   return static_cast<std::size_t>(std::count_if(s.packing.links.begin(), s.packing.links.end(), [&s](const Link<2>& l) {
-    return l.kind != LinkKind::distant &&
-           (s.law.attraction > 0 || l.normal_force > kLoadTolerance * s.certificate.force_scale);
+    return is_contact(l.kind) && (s.law.attraction > 0 || l.normal_force > kLoadTolerance * s.certificate.force_scale);
   }));
 }
 

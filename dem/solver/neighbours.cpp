@@ -42,8 +42,8 @@ Wrapped wrap_index(int c, int n) { return c < 0 ? Wrapped{c + n, -1} : c >= n ? 
 
 // Place of the n-th pair in a segment of so many batches. Pairs come sorted by body i. Dealt out like cards, one to
 // each lane of kDeck batches before the next, those of one body come to stand batches apart; side by side, each would
-// wait for the load of that body to come back from the store before it (5 to 20 % of the step, docs/benchmarks.md). In
-// samples beyond the caches the prefetcher wants the sorted order instead.
+// wait for the load of that body to come back from the store before it (5 to 20 % of the step,
+// docs/measured/benchmarks.md). In samples beyond the caches the prefetcher wants the sorted order instead.
 constexpr std::size_t kDeck = 16;          // batches
 constexpr std::size_t kMostDealt = 32768;  // bodies: 3 MB of rows and loads
 std::size_t dealt(std::size_t n, std::size_t batches) {

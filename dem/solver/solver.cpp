@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "dem/disks/at_rest.hpp"
 #include "dem/disks/kernel/crossing.hpp"
 #include "dem/run_error.hpp"
 #include "dem/state/link.hpp"
@@ -245,16 +246,13 @@ void Solver::set_law(const LawParameters& law, Springs springs) {
 
 double Solver::elastic_energy() const {
   double energy = 0;
-  const auto stored = [](double force, double stiffness) {
-    return stiffness > 0 ? 0.5 * force * force / stiffness : 0.0;
-  };
   lists_.for_each([&](std::int32_t i, std::int32_t j, std::uint8_t shift, double tangential, double moment) {
     const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
     const double sum = bodies_.constants[a].radius + bodies_.constants[b].radius;
     const double gap = norm(bodies_.position(b) + cell_.offset(image_shift(shift)) - bodies_.position(a)) - sum;
-    if (gap < 0)
-      energy += 0.5 * law_.normal_stiffness * gap * gap + stored(tangential, law_.tangential_stiffness) +
-                stored(moment, law_.rolling_stiffness);
+    if (!(gap < 0)) return;
+    const SpringEnergy springs = spring_energy(law_, tangential, moment);
+    energy += contact(law_, gap).elastic + springs.tangential + springs.rolling;
   });
   return energy;
 }

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "dem/disks/at_rest.hpp"
 #include "dem/run_error.hpp"
 #include "dem/solver/solver.hpp"
-#include "dem/state/certificate.hpp"
 #include "dem/state/link.hpp"
 
 namespace isostat {
@@ -40,7 +40,7 @@ void Solver::load_bodies(const State& state) {
   }
   std::vector<PairMemory> springs;
   for (const Link<2>& l : state.packing.links)
-    if (l.kind != LinkKind::distant) {
+    if (is_contact(l.kind)) {
       const bool swap = l.i > l.j;
       springs.push_back({swap ? l.j : l.i, swap ? l.i : l.j, swap ? ImageShift<2>{-l.shift[0], -l.shift[1]} : l.shift,
                          l.tangential_force, swap ? -l.moment : l.moment});
@@ -90,10 +90,10 @@ void Solver::snapshot(State& s) const {
     if (distant && !(law_.attraction > 0 && frame.gap < law_.attraction_range)) return;
     Link<2> link;
     link.i = i, link.j = j, link.shift = image_shift(code), link.gap = frame.gap;
-    link.normal_force = static_normal_force(frame.gap, law_);
+    link.normal_force = at_rest(law_, frame.gap).force;
     link.tangential_force = distant ? 0.0 : tangential;
     link.moment = distant ? 0.0 : moment;
-    link.kind = link_kind(frame.gap, link.tangential_force, link.moment, law_);
+    link.kind = kind_of(law_, frame.gap, link.tangential_force, link.moment);
     s.packing.links.push_back(link);
   });
 }

@@ -17,7 +17,7 @@ std::uint64_t mixed(std::uint64_t x) {
 std::uint64_t contact_set(const State& s) {
   std::uint64_t sum = 0;
   for (const Link<2>& l : s.packing.links) {
-    if (l.kind == LinkKind::distant) continue;
+    if (!is_contact(l.kind)) continue;
     const auto a = static_cast<std::uint64_t>(s.packing.bodies.id[static_cast<std::size_t>(l.i)]);
     const auto b = static_cast<std::uint64_t>(s.packing.bodies.id[static_cast<std::size_t>(l.j)]);
     sum += mixed(mixed(std::min(a, b) + 1) + std::max(a, b));

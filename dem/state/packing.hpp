@@ -45,11 +45,14 @@ enum class LinkKind : std::uint8_t {
   rolling_yielded,  // r  at the rolling limit: no moment row
   both_yielded,     // sr
   distant,          // d  attraction across a gap: normal row only
+  beam,             // b  elastic beam: normal, tangential, moment, never at a limit
 };
 constexpr std::string_view letters(LinkKind kind) {
-  constexpr std::string_view names[] = {"c", "s", "r", "sr", "d"};
+  constexpr std::string_view names[] = {"c", "s", "r", "sr", "d", "b"};
   return names[static_cast<int>(kind)];
 }
+// Two surfaces touch: what coordination numbers, rattlers and the contact set count.
+constexpr bool is_contact(LinkKind kind) { return kind != LinkKind::distant && kind != LinkKind::beam; }
 std::optional<LinkKind> link_kind_from_letters(std::string_view letters);
 
 // One interacting pair. i and j are indices into Bodies (not ids); branch vector r_ij = r_j + shift * L - r_i,
@@ -60,10 +63,21 @@ struct Link {
   std::int32_t i = 0, j = 0;
   ImageShift<D> shift{};
   LinkKind kind = LinkKind::closed;
-  double gap = 0;                    // [a] h; h < 0 is overlap
+  std::int32_t beam = -1;            // of kind beam: its place in Packing::beams
+  double gap = 0;                    // [a] h; h < 0 is overlap (a beam: its elongation)
   double normal_force = 0;           // [F0] N > 0 repulsive
   Tangential<D> tangential_force{};  // [F0]
   Spin<D> moment{};                  // [F0 a] rolling moment M on j
+};
+
+// An elastic beam of the plane between the centres of two bodies: what its link does not say. As a link it has
+// R_i = R_j = L0/2 (dem/state/link_ends.hpp), so that gap and lever arms are L - L0 and L/2, and its forces are those
+// of Poeschel and Buchholtz 1995, Sec. 2: N = -E h, end moments from the rotations of the ends against the chord.
+struct Beam {
+  double rest_length = 0;                     // L0 [a]
+  double rest_angle_i = 0, rest_angle_j = 0;  // of the ends against the chord, without load
+  double stiffness = 0;                       // E [F0/a]: force per elongation
+  double bending = 0;                         // E I [F0 a^2]
 };
 
 template <int D>
@@ -71,6 +85,7 @@ struct Packing {
   std::optional<PeriodicCell<D>> cell;  // none: isolated
   Bodies<D> bodies;
   std::vector<Link<D>> links;
+  std::vector<Beam> beams;  // of the links of kind beam; in the plane only
 };
 
 }  // namespace isostat

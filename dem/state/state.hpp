@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dem/scene/scene.hpp"
+#include "dem/state/certificate.hpp"
 #include "dem/state/packing.hpp"
 
 namespace isostat {
@@ -61,24 +62,6 @@ struct StageProgress {
   Vec2 start_stress{};            // [F0/a] static stress sigma_11, sigma_22 when the stage began
   double peak_stress = 0;         // [F0/a] largest change of the stress of a driven direction so far
   bool drifting = false;          // static solves have silenced the vibrations, but not what floppy modes still do
-};
-
-// The three criteria of Gilabert 2007, Sec. II.D, evaluated from static forces.
-struct Certificate {
-  double max_force = 0;                 // [F1]
-  double max_moment = 0;                // [F1 a]
-  double pressure_error = 0;            // [F1/a] largest over the controlled directions; 0 in a fixed cell
-  double kinetic_energy_per_grain = 0;  // [F1 a]
-  double force_scale = 1;               // F1 = max(F0, a P) [F0]
-  double tolerance_force = 1e-4, tolerance_pressure = 1e-4, tolerance_kinetic = 5e-8;
-  std::int64_t sliding = 0;          // contacts with |T| >= (1 - 1e-6) mu N_e
-  std::int64_t rolling_yielded = 0;  // contacts with |M| >= (1 - 1e-6) mu_r N_e
-  double smallest_margin = 1;        // min over contacts of 1 - |T| / (mu N_e), and the same for rolling
-  std::int64_t moving = 0;           // grains that still move: whose own kinetic energy is above the tolerance of the
-                                     // mean, or that a static solve found driven in floppy or very soft modes
-  bool pressure_controlled = false;
-  bool equilibrated = false;
-  std::string finishing = "none";  // which finishing method acted, if any
 };
 
 struct State {

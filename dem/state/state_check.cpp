@@ -63,7 +63,9 @@ Broken check_links(const Packing<D>& packing) {
     if (!names_two_bodies(l, packing.bodies.size())) return StateFault{"links/i", which + " does not join two grains"};
     if (!packing.cell && l.shift != ImageShift<D>{})
       return StateFault{"links/shift", which + " crosses a cell that is not there"};
-    if (l.kind > LinkKind::distant) return StateFault{"links/kind", which + " has an unknown kind"};
+    if (l.kind > LinkKind::beam) return StateFault{"links/kind", which + " has an unknown kind"};
+    if (l.kind == LinkKind::beam && (l.beam < 0 || static_cast<std::size_t>(l.beam) >= packing.beams.size()))
+      return StateFault{"links/beam", which + " names a beam that is not there"};
     if (!finite(l.gap) || !finite(l.normal_force) || !finite(l.tangential_force) || !finite(l.moment))
       return StateFault{"links", which + " has a gap, force or moment that is not a finite number"};
   }
@@ -119,6 +121,7 @@ template std::optional<StateFault> packing_fault(const Packing<3>&);
 
 std::optional<StateFault> state_fault(const State& state) {
   if (auto f = packing_fault(state.packing)) return f;
+  if (!state.packing.beams.empty()) return StateFault{"links", "beams between disks are kept by .net files only"};
   if (auto f = check_memory(state.memory, state.packing.bodies.size())) return f;
   return check_numbers(state);
 }

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "dem/state/link_ends.hpp"
+
 namespace isostat {
 namespace {
 
@@ -100,9 +102,7 @@ std::vector<Link<D>> touching_links(const Packing<D>& packing, double gap_tolera
     ImageShift<D> shift = image;
     for (std::size_t k = 0; k < D; ++k) shift[k] += home[i][k] - home[j][k];
     if (j < i || (j == i && shift <= ImageShift<D>{})) return;
-    Vec<D> branch = bodies.position[j] - bodies.position[i];
-    if (packing.cell) branch += packing.cell->offset(shift);
-    const double gap = norm(branch) - bodies.radius[i] - bodies.radius[j];
+    const double gap = norm(branch(packing, i, j, shift)) - bodies.radius[i] - bodies.radius[j];
     if (!(gap <= gap_tolerance)) return;
     Link<D> link;
     link.i = static_cast<std::int32_t>(i), link.j = static_cast<std::int32_t>(j);

@@ -13,7 +13,7 @@
 #include "analysis/network/sections.hpp"
 #include "dem/files/network_file.hpp"
 #include "dem/input_error.hpp"
-#include "dem/state/certificate.hpp"
+
 #include "dem/state/touching.hpp"
 #include "tests/oracle/network_oracle.hpp"
 #include "tests/support/refusal.hpp"

@@ -28,7 +28,7 @@ State two_disks() {
   s.packing.bodies.radius = {0.5, 0.25};
   s.packing.bodies.mass = {1, 0.25};
   s.packing.bodies.inertia = {0.125, 0.0078125};
-  s.packing.links.push_back({0, 1, {}, LinkKind::distant, 0.0, -1.0, 0, 0});
+  s.packing.links.push_back({.i = 0, .j = 1, .kind = LinkKind::distant, .normal_force = -1.0});
   s.scene = read_scene(ISOSTAT_DATA "/scenes/disks-method1.toml");
   s.law = resolve(s.scene.law);
   s.time = 12.5, s.time_step = 0.06 * std::sqrt(1e-5), s.imposed_stress = isotropic(0.01);

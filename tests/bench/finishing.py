@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""The same samples ended by the bare law, by a drag and by static solves (docs/equilibrium.md).
+"""The same samples ended by the bare law, by a drag and by static solves (docs/measured/equilibrium.md).
 
 Method 1, and method 2 to P* = 0: whole runs, identical up to the finishing. The load P* = .01 of method 2 begins with a
 collapse, which is chaotic: it is run by each method from one and the same state at P* = 0. Writes every sample to
-docs/results/finishing.csv and prints means of the pairs' differences.
+docs/measured/results/finishing.csv and prints means of the pairs' differences.
     finishing.py [--program build/release/bin/isostat] [--grains 400] [--jobs 1] [--only TEXT]
 With --only, the cases whose name holds the text are run and replace their rows in the table.
 """
@@ -20,7 +20,7 @@ import tempfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.abspath(os.path.join(HERE, "..", ".."))
 SCENES = os.path.join(ROOT, "data", "scenes")
-OUTPUT = os.path.join(ROOT, "docs", "results", "finishing.csv")
+OUTPUT = os.path.join(ROOT, "docs", "measured", "results", "finishing.csv")
 METHODS = ("none", "drag", "newton")
 NUMBERS = ("solid_fraction", "z", "z_star", "N_plus", "N_minus", "zero_fraction", "above_tenth_fraction", "max_force",
            "cpu_seconds")

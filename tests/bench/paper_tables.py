@@ -2,9 +2,9 @@
 """The paper's numbers (data/papers/gilabert2007.csv) beside those of the studies in data/studies.
 
     isostat study data/studies/NAME.toml -o out/NAME        for NAME in method1 aggregation agitation limits choices
-    tests/bench/paper_tables.py out docs/results
+    tests/bench/paper_tables.py out docs/measured/results
 
-writes docs/results/gilabert2007.csv and prints it as markdown, study_choices.csv (means of the study of that name), and
+writes docs/measured/results/gilabert2007.csv and prints it as markdown, study_choices.csv (means of the study of that name), and
 runs_NAME.csv, every run with its end, CPU time and hash.
 
 A row such as A+A-5600 pools the samples of both: the paper does not distinguish sizes. Errors are standard errors over

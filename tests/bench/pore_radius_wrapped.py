@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The mean pore radius of Gilabert 2007, Eqs. 29 and 30, on a mesh, with two mistakes that are easy to make in a periodic
 cell: holes cut at its edge, and holes joined across it whose coordinates are not unwrapped. Beside `isostat analyze --only
-pores` this tells which would give the paper's values (docs/paper.md). Needs python3-h5py and python3-scipy.
+pores` this tells which would give the paper's values (docs/measured/paper.md). Needs python3-h5py and python3-scipy.
 
     tests/bench/pore_radius_wrapped.py STATE.h5 ...
 """

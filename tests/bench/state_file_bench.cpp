@@ -28,7 +28,7 @@ State random_state(std::size_t n) {
     b.radius[k] = b.mass[k] = b.inertia[k] = 0.5;
     const auto i = static_cast<std::int32_t>(k), j = static_cast<std::int32_t>((k + 1) % n);
     for (int copy = 0; copy < 2; ++copy)
-      s.packing.links.push_back({i, j, {copy, 0}, LinkKind::closed, real(engine), real(engine), real(engine), 0});
+      s.packing.links.push_back({i, j, {copy, 0}, LinkKind::closed, -1, real(engine), real(engine), real(engine), 0});
     s.memory.pairs.push_back({i, j, {}, real(engine), 0});
   }
   for (auto* v : {&s.memory.half_velocity, &s.memory.force, &s.memory.outer_position, &s.memory.inner_position})

@@ -3,7 +3,7 @@
 k; gap tolerance, normalisation, weights. The fits are done here anew (scipy), so that they also check those of the program.
 Writes a CSV. Needs python3-scipy.
 
-    tests/bench/table_vii_choices.py build/release/bin/isostat out/aggregation docs/results/table_vii_choices.csv
+    tests/bench/table_vii_choices.py build/release/bin/isostat out/aggregation docs/measured/results/table_vii_choices.csv
 """
 import csv
 import glob

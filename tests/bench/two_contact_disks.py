@@ -2,7 +2,7 @@
 """Eq. 20 of Gilabert 2007: a disk of radius R whose only two loaded contacts are with disks R1, R2 that touch each other
 carries in both, without rolling moments, |T/N| = sqrt(R (R1 + R2 + R) / (R1 R2)).
 
-    two_contact_disks.py STATE.h5 ... > docs/results/eq20.csv       (python3-h5py, numpy)
+    two_contact_disks.py STATE.h5 ... > docs/measured/results/eq20.csv       (python3-h5py, numpy)
 """
 import sys
 

@@ -1,4 +1,6 @@
-#include "dem/state/certificate.hpp"
+#include "dem/disks/at_rest.hpp"
+#include "dem/disks/certificate.hpp"
+#include "dem/state/balance.hpp"
 
 #include <gtest/gtest.h>
 
@@ -35,7 +37,7 @@ Packing<2> pair_at(double gap, const LawParameters& law) {
   p.bodies.inertia = {0.125, 0.125};
   p.bodies.position = {Vec2{{0, 0}}, Vec2{{1 + gap, 0}}};
   Link<2> l;
-  l.j = 1, l.gap = gap, l.kind = link_kind(gap, 0, 0, law), l.normal_force = static_normal_force(gap, law);
+  l.j = 1, l.gap = gap, l.kind = kind_of(law, gap, 0, 0), l.normal_force = at_rest(law, gap).force;
   p.links = {l};
   return p;
 }
@@ -59,11 +61,11 @@ TEST(Equilibrium, StickingPairAtZeroForceIsBalanced) {
 
 TEST(Equilibrium, NormalForceFollowsTheLawThroughContactAndRange) {
   const LawParameters law = cohesive_law();
-  EXPECT_DOUBLE_EQ(static_normal_force(-3e-5, law), 2);
-  EXPECT_DOUBLE_EQ(static_normal_force(0, law), -1);
-  EXPECT_DOUBLE_EQ(static_normal_force(5e-4, law), -0.5);
-  EXPECT_EQ(static_normal_force(1.1e-3, law), 0);
-  EXPECT_EQ(static_normal_force(1e-4, cohesionless_law()), 0);
+  EXPECT_DOUBLE_EQ(at_rest(law, -3e-5).force, 2);
+  EXPECT_DOUBLE_EQ(at_rest(law, 0).force, -1);
+  EXPECT_DOUBLE_EQ(at_rest(law, 5e-4).force, -0.5);
+  EXPECT_EQ(at_rest(law, 1.1e-3).force, 0);
+  EXPECT_EQ(at_rest(cohesionless_law(), 1e-4).force, 0);
 }
 
 TEST(Equilibrium, UnbalancedPairReportsItsForceInF1) {
@@ -99,12 +101,12 @@ TEST(Equilibrium, NetLoadsAndStressMatchTheContactPointOracle) {
 TEST(Equilibrium, MarginCountsAndKindsAgree) {
   const LawParameters law = cohesive_law();
   const double h = -2e-5, elastic = 2, limit_t = law.friction * elastic, limit_m = law.rolling_friction * elastic;
-  EXPECT_EQ(link_kind(h, 0.5 * limit_t, 0, law), LinkKind::closed);
-  EXPECT_EQ(link_kind(h, -limit_t * (1 - 0.9e-6), 0, law), LinkKind::sliding);
-  EXPECT_EQ(link_kind(h, limit_t * (1 - 1.1e-6), 0, law), LinkKind::closed);
-  EXPECT_EQ(link_kind(h, 0, limit_m, law), LinkKind::rolling_yielded);
-  EXPECT_EQ(link_kind(h, limit_t, -limit_m, law), LinkKind::both_yielded);
-  EXPECT_EQ(link_kind(0, 0, 0, law), LinkKind::distant);
+  EXPECT_EQ(kind_of(law, h, 0.5 * limit_t, 0), LinkKind::closed);
+  EXPECT_EQ(kind_of(law, h, -limit_t * (1 - 0.9e-6), 0), LinkKind::sliding);
+  EXPECT_EQ(kind_of(law, h, limit_t * (1 - 1.1e-6), 0), LinkKind::closed);
+  EXPECT_EQ(kind_of(law, h, 0, limit_m), LinkKind::rolling_yielded);
+  EXPECT_EQ(kind_of(law, h, limit_t, -limit_m), LinkKind::both_yielded);
+  EXPECT_EQ(kind_of(law, 0, 0, 0), LinkKind::distant);
 
   Packing<2> p = pair_at(h, law);
   p.links[0].tangential_force = 0.75 * limit_t;

@@ -15,12 +15,12 @@ outputs() {  # PROGRAM DIRECTORY ARGUMENTS...: everything that a user can get ou
   mkdir -p "$out"
   "$program" pack "${@/SERIES/$out/energies.csv}" -o "$out/state.h5" --set "output.series=\"$out/series.csv\"" 2> "$out/pack.txt" || code=$?
   echo "exit $code" >> "$out/pack.txt"
-  for state in "$out"/state*.h5; do "$program" info "$state" | grep '"hash"'; done > "$out/hash.txt"
+  for state in "$out"/*.h5; do "$program" info "$state" | grep '"hash"' >> "$out/hash.txt"; done
   "$program" analyze "$out/state.h5" --json "$out/report.json" --csv "$out/tables" > "$out/report.txt" 2>&1
   "$program" analyze "$out/state.h5" --only rigidity,clusters,stiffness,moduli,modes,bases --cell free --json "$out/free.json" > /dev/null 2>&1
   for format in net csv dump vtp xyz; do "$program" convert "$out/state.h5" -o "$out/text.$format" > /dev/null; done
   for what in grains forces clusters; do "$program" draw "$out/state.h5" -o "$out/$what.svg" --what $what > /dev/null; done
-  rm "$out"/state*.h5  # they hold the command, and that their own path
+  rm "$out"/*.h5
   sed -i "s|$out|OUT|g" "$out"/*.txt "$out"/*.json
 }
 

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "analysis/finishing/newton_finishing.hpp"
+#include "dem/disks/certificate.hpp"
 #include "dem/disks/sample.hpp"
 #include "dem/files/state_file.hpp"
 #include "dem/run/stages.hpp"
 #include "dem/scene/file.hpp"
-#include "dem/state/certificate.hpp"
 #include "dem/state/clusters.hpp"
 #include "dem/state/physical_hash.hpp"
 

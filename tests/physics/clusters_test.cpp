@@ -5,10 +5,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "dem/disks/certificate.hpp"
 #include "dem/disks/lab/cluster.hpp"
 #include "dem/disks/lab/few_bodies.hpp"
 #include "dem/disks/lab/pair.hpp"
-#include "dem/state/certificate.hpp"
+#include "dem/state/balance.hpp"
 #include "tests/support/disk_states.hpp"
 
 namespace isostat {

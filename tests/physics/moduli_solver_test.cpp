@@ -7,10 +7,10 @@
 
 #include "analysis/rigidity/exact_rank.hpp"
 #include "analysis/stiffness/moduli.hpp"
+#include "dem/disks/at_rest.hpp"
 #include "dem/disks/sample.hpp"
 #include "dem/run/stages.hpp"
 #include "dem/solver/solver.hpp"
-#include "dem/state/certificate.hpp"
 #include "dem/state/link.hpp"
 
 namespace isostat {
@@ -98,7 +98,7 @@ class DisplacedNetwork {
       const auto now = link_frame(r[0] + dx, r[1] + dy, p.bodies.radius[i], p.bodies.radius[j]);
       const auto v = link_velocity(before, dx, dy, u[a + 2], u[b + 2]);  // the increment of the springs, to first order
       const bool distant = l.kind == LinkKind::distant;
-      const double n = static_normal_force(now.gap, s_.law);
+      const double n = at_rest(s_.law, now.gap).force;
       const double t = distant ? 0 : l.tangential_force - s_.law.tangential_stiffness * v.tangential;
       const double m = distant ? 0 : l.moment - s_.law.rolling_stiffness * v.rolling;
       const auto load = link_load(now, n, t, m);

@@ -11,7 +11,8 @@ Isa best_isa() {
   Isa best = Isa::scalar;
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) best = Isa::avx2;
-    // clang 14 compiles the AVX-512 kernel, on libstdc++'s <experimental/simd>, to wrong forces (docs/checks.md).
+    // clang 14 compiles the AVX-512 kernel, on libstdc++'s <experimental/simd>, to wrong forces
+    // (docs/measured/checks.md).
 #if !defined(__clang__)
   if (best == Isa::avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
       __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw"))

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "dem/disks/certificate.hpp"
 #include "dem/disks/lab/few_bodies.hpp"
-#include "dem/state/certificate.hpp"
 
 namespace isostat::lab {
 namespace {
@@ -53,7 +53,7 @@ ClusterResult double_triangle(const ClusterSetup& setup) {
                 (find_link(r.state, 0, 3) || find_link(r.state, 1, 3) || find_link(r.state, 2, 3));
   }
   r.residual = r.state.certificate.max_force;
-  for (const Link<2>& l : r.state.packing.links) r.contacts += l.kind != LinkKind::distant;
+  for (const Link<2>& l : r.state.packing.links) r.contacts += is_contact(l.kind);
 
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const Link<2>*c1 = find_link(r.state, 0, 3), *c2 = find_link(r.state, 1, 3), *base = find_link(r.state, 0, 1);

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "dem/disks/at_rest.hpp"
 #include "dem/disks/lab/few_bodies.hpp"
 #include "dem/solver/aligned.hpp"
-#include "dem/state/certificate.hpp"
 
 namespace isostat::lab {
 namespace {
@@ -176,7 +176,7 @@ std::vector<LawPoint> normal_curve(const LawScene& scene, int points) {
     const double h = low + (high - low) * k / points;
     pair.set_gap(h);
     const double gap = (1 + h) - 1;  // what the kernel sees
-    curve.push_back({h, pair.move(0, 0).normal, static_normal_force(gap, law)});
+    curve.push_back({h, pair.move(0, 0).normal, at_rest(law, gap).force});
   }
   return curve;
 }

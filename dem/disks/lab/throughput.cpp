@@ -5,7 +5,7 @@
 #include <ctime>
 
 #include "dem/disks/sample.hpp"
-#include "dem/state/certificate.hpp"
+#include "dem/state/balance.hpp"
 
 namespace isostat::lab {
 namespace {

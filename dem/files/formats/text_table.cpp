@@ -8,6 +8,8 @@
 #include <sstream>
 #include <unordered_map>
 
+#include "dem/state/link_ends.hpp"
+
 namespace isostat {
 namespace {
 
@@ -224,22 +226,22 @@ std::vector<Link<D>> read_links(const TextTable& links, const Packing<D>& grains
     }
     if (!known) continue;
     const auto i = static_cast<std::size_t>(l.i), j = static_cast<std::size_t>(l.j);
-    Vec<D> branch = grains.bodies.position[j] - grains.bodies.position[i];
-    if (grains.cell && !s[0]) l.shift = grains.cell->nearest_image(branch);
+    if (grains.cell && !s[0])
+      l.shift = grains.cell->nearest_image(grains.bodies.position[j] - grains.bodies.position[i]);
     for (std::size_t k = 0; k < D && s[0]; ++k) {
       const std::int64_t shift = in.integer(row, s[k], 0);
       if (std::abs(static_cast<double>(shift)) > 1e8) in.cell_fault(row, *s[k], "must be an integer of at most 1e8");
       l.shift[k] = static_cast<int>(std::clamp<std::int64_t>(shift, -100000000, 100000000));
       if (!grains.cell && l.shift[k] != 0) in.cell_fault(row, *s[k], "an image shift needs a periodic cell (--box)");
     }
-    if (grains.cell) branch += grains.cell->offset(l.shift);
-    if (!(norm(branch) > 0)) in.cell_fault(row, *ends[1], "is at the same place as grain i: the link has no normal");
+    const double distance = norm(branch(grains, i, j, l.shift));
+    if (!(distance > 0)) in.cell_fault(row, *ends[1], "is at the same place as grain i: the link has no normal");
     if (kind[0]) {
       const auto parsed = parse_kind(links.cell(row, *kind[0]));
       if (!parsed) in.cell_fault(row, *kind[0], "must be c, s, r, sr or d");
       l.kind = parsed.value_or(LinkKind::closed);
     }
-    l.gap = in.real(row, h[0], norm(branch) - grains.bodies.radius[i] - grains.bodies.radius[j]);
+    l.gap = in.real(row, h[0], distance - grains.bodies.radius[i] - grains.bodies.radius[j]);
     l.normal_force = in.real(row, n[0], 0);
     set_spin(in, row, t, l.tangential_force);
     set_spin(in, row, m, l.moment);

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <vector>
 
+#include "dem/state/link_ends.hpp"
+
 namespace isostat {
 namespace {
 
@@ -87,9 +89,7 @@ std::string vtk_polydata(const Packing<D>& packing, double time) {
   }
   for (const Link<D>& l : packing.links) {
     const auto i = static_cast<std::size_t>(l.i), j = static_cast<std::size_t>(l.j);
-    Vec<D> end = b.position[j] - b.position[i];
-    if (packing.cell) end += packing.cell->offset(l.shift);
-    end += place[i];
+    const Vec<D> end = branch(packing, i, j, l.shift) + place[i];
     // Wrapping i and j apart may differ from the branch vector by whole cells, or by rounding alone.
     bool inside = true;
     for (int k = 0; k < D; ++k)

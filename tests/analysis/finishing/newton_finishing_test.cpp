@@ -7,11 +7,12 @@
 #include <tuple>
 
 #include "analysis/finishing/newton_finishing.hpp"
+#include "dem/disks/certificate.hpp"
 #include "dem/disks/sample.hpp"
 #include "dem/files/state_file.hpp"
 #include "dem/input_error.hpp"
 #include "dem/run/stages.hpp"
-#include "dem/state/certificate.hpp"
+#include "dem/state/balance.hpp"
 #include "dem/state/energy.hpp"
 #include "dem/state/physical_hash.hpp"
 #include "tests/support/disk_states.hpp"

@@ -8,9 +8,10 @@
 #include "analysis/finishing/gmres.hpp"
 #include "analysis/finishing/repeated_cholesky.hpp"
 #include "analysis/finishing/settling_network.hpp"
+#include "dem/disks/certificate.hpp"
 #include "dem/solver/random.hpp"
 #include "dem/solver/solver.hpp"
-#include "dem/state/certificate.hpp"
+#include "dem/state/balance.hpp"
 #include "tests/support/disk_states.hpp"
 
 namespace isostat {

@@ -1,0 +1,20 @@
+// The certificate of a packing of disks, dem/state/certificate.hpp.
+#pragma once
+#include "dem/scene/scene.hpp"
+#include "dem/state/certificate.hpp"
+#include "dem/state/state.hpp"
+
+namespace isostat {
+
+// F1 = max(F0, a P) [F0], a = 1 the largest diameter; the unit of force where neither is positive.
+double force_scale(const LawParameters& law, const ImposedStress& imposed);
+
+// O(grains + links). The kinetic energy is a mean over grains; without cohesion the grains that touch nothing do not
+// count (they keep their spin for ever) unless none touches, and without friction spins do not count (no force acts on
+// them). The pressure criterion applies to the directions with an imposed stress. `finishing` is left at "none".
+Certificate evaluate_certificate(const Packing<2>& packing, const LawParameters& law, const ImposedStress& imposed,
+                                 const EquilibriumScene& tolerance);
+// From everything a state holds; keeps the state's record of its finishing method.
+Certificate evaluate_certificate(const State& state);
+
+}  // namespace isostat
