@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "dem/disks/disks.hpp"
 #include "dem/state/packing.hpp"
-#include "dem/state/state.hpp"
 
 namespace isostat {
 
@@ -28,7 +28,7 @@ struct AnalysisOptions {
 
 struct AnalysisInput {
   std::string path;
-  State state;                           // a network or foreign packing is a state without law
+  State<Disks> state;                    // a network or foreign packing is a state without law
   std::optional<Packing<3>> packing_3d;  // a 3D network or foreign packing; `state` then has no grains
   bool links_given = false;              // the file lists links (a state always does); false: grains alone
 

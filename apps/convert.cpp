@@ -75,7 +75,7 @@ int convert_command(int argc, char** argv) {
     write_state(file.state, output);
     return exit_done;
   }
-  const State& state = file.state;
+  const State<Disks>& state = file.state;
   write_text_files(file.packing_3d ? files_of(*file.packing_3d, output, state.step, state.time)
                                    : files_of(state.packing, output, state.step, state.time));
   return exit_done;

@@ -61,14 +61,14 @@ Json scales_json(const Scales& s) {
 }
 
 // The law as it acts, every default filled in; docs/formats.md has the units.
-Json law_json(const LawParameters& law) {
+Json law_json(const DiskLaw& law) {
   const auto& [kn, kt, zeta, mu, mu_r, kr, f0, d0] = law;
   return {{"normal_stiffness", kn},   {"tangential_stiffness", kt}, {"damping", zeta},  {"friction", mu},
           {"rolling_friction", mu_r}, {"rolling_stiffness", kr},    {"attraction", f0}, {"attraction_range", d0}};
 }
 
 // The same quantities, and the units, in SI: m, kg, N, s; stress and stiffness in the plane in N/m.
-Json si_json(const State& state, const Scales& s) {
+Json si_json(const State<Disks>& state, const Scales& s) {
   const SiScales si = si_scales(*state.scene.units);
   const auto times = [](const std::optional<double>& x, double unit) { return x ? number(*x * unit) : Json(nullptr); };
   return {{"a", number(si.length)},
@@ -83,8 +83,7 @@ Json si_json(const State& state, const Scales& s) {
           {"time", number(state.time * si.time)}};
 }
 
-Json info_json(const StateFile& file) {
-  const State& state = file.state;
+Json info_json(const State<Disks>& state, const StateFile& file) {
   const Scales s = scales(state);
   Json json;
   json["format_version"] = kStateFormatVersion;
@@ -111,8 +110,9 @@ int info_command(int argc, char** argv) {
                              "Prints what a state file is as JSON: hash of the physical state, cell, scene, "
                              "dimensionless numbers (in SI too if the scene has [units]), provenance."});
   arguments.require_inputs(1, 1, "one state file");
-  std::cout << info_json(read_state_file(arguments.inputs()[0])).dump(2, ' ', false, Json::error_handler_t::replace)
-            << '\n';
+  const StateFile file = read_state_file(arguments.inputs()[0]);
+  const Json json = std::visit([&file](const auto& state) { return info_json(state, file); }, file.state);
+  std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
   return exit_done;
 }
 

@@ -11,7 +11,6 @@
 #include "apps/interrupt.hpp"
 #include "apps/progress_line.hpp"
 #include "apps/sample_run.hpp"
-#include "dem/disks/sample.hpp"
 #include "dem/disks/scales.hpp"
 #include "dem/files/atomic_file.hpp"
 #include "dem/input_error.hpp"
@@ -64,8 +63,8 @@ ExitCode run_one(const PackJob& job, int k, ProgressLine& line, RunOutcome& tota
   SampleWatch watch;
   watch.interrupted = InterruptGuard::requested;
   watch.progress = [&](const Progress& p) { line.update(p, job.scene, k); };
-  watch.ended = [&](const State& s, const SampleOutcome&) {
-    grains = static_cast<std::int64_t>(s.packing.bodies.size());
+  watch.ended = [&](const AnyState& any, const SampleOutcome&) {
+    grains = std::visit([](const auto& s) { return static_cast<std::int64_t>(s.packing.bodies.size()); }, any);
   };
   const SampleOutcome outcome = run_sample(sample, watch);
   const std::scoped_lock hold(lock);
@@ -77,8 +76,8 @@ ExitCode run_one(const PackJob& job, int k, ProgressLine& line, RunOutcome& tota
   return outcome.code;
 }
 
-void print_scales(const PackJob& job, const State& state) {
-  State first = state;
+void print_scales(const PackJob& job, const State<Disks>& state) {
+  State<Disks> first = state;
   first.imposed_stress = job.scene.stages.empty() ? ImposedStress{} : imposed_stress(job.scene.stages.front());
   const Scales s = scales(first);
   auto text = [](std::optional<double> x) {
@@ -159,7 +158,7 @@ int pack_command(int argc, char** argv) {
   if (const auto path = args.value("--timings")) require_writable(*path);
 
   const InterruptGuard guard;
-  print_scales(job, initial_state(job.scene, job.seed));
+  std::visit([&job](const auto& state) { print_scales(job, state); }, initial_state(job.scene, job.seed));
   RunOutcome total;
   std::int64_t grain_steps = 0;
   const int code = run_samples(job, total, grain_steps);

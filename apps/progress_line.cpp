@@ -40,7 +40,7 @@ double ProgressLine::seconds_left(const Progress& p, const StageScene& stage) {
   const double t = now();
   if (p.stage != shown_stage_)
     shown_stage_ = p.stage, first_at_ = t, first_time_ = p.time, first_log_ratio_ = std::log(p.last.ratio);
-  if (stage.until == "time") {
+  if (stage.until == Until::time) {
     const double done = p.time - first_time_;
     return done > 0 ? (t - first_at_) * (stage.time - done) / done : NAN;
   }

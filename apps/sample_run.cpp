@@ -8,11 +8,10 @@
 
 #include "analysis/finishing/newton_finishing.hpp"
 #include "analysis/version.hpp"
-#include "dem/disks/sample.hpp"
+#include "dem/disks/series.hpp"
 #include "dem/files/atomic_file.hpp"
 #include "dem/files/state_file.hpp"
 #include "dem/input_error.hpp"
-#include "dem/run/series.hpp"
 #include "dem/run_error.hpp"
 #include "dem/scene/text.hpp"
 
@@ -24,8 +23,8 @@ constexpr double kCheckpointSeconds = 60;
 // Appends rows to the series; after a resume it goes on where the file stood at the checkpoint.
 class SeriesFile {
  public:
-  SeriesFile(const std::string& path, bool energies, double resumed_at) : path_(path), energies_(energies) {
-    std::string kept = series_header(energies);
+  SeriesFile(const std::string& path, const std::vector<SeriesColumn>& columns, double resumed_at) : path_(path) {
+    std::string kept = series_header(columns);
     if (resumed_at >= 0 && std::filesystem::exists(path)) {
       std::ifstream in(path);
       std::string line;
@@ -36,30 +35,38 @@ class SeriesFile {
     write_file_atomically(path, kept);
     out_.open(path, std::ios::app);
   }
-  void add(const State& state) {
-    out_ << series_row(state, energies_) << std::flush;
+  void add(const std::vector<SeriesColumn>& columns) {
+    out_ << series_row(columns) << std::flush;
     if (!out_) throw InputError(path_, 0, "output.series", path_, "cannot be written");
   }
 
  private:
   std::string path_;
-  bool energies_;
   std::ofstream out_;
 };
+
+// What solves the statics of a system.
+NewtonFinishing static_solver(const State<Disks>&) { return NewtonFinishing(); }
 
 class SampleRun {
  public:
   SampleRun(const SampleJob& job, const SampleWatch& watch) : job_(job), watch_(watch) {}
 
   SampleOutcome run() {
-    SampleOutcome outcome;
     if (job_.resume && !std::filesystem::exists(partial()) && std::filesystem::exists(job_.output)) {
       check_same(read_state(job_.output), job_.output);
-      return outcome;
+      return {};
     }
-    State state = start();
-    const RunHooks hooks = make_hooks(state);
-    NewtonFinishing finisher;
+    start();
+    return std::visit([this](auto& state) { return march(state); }, state_);
+  }
+
+ private:
+  template <class System>
+  SampleOutcome march(State<System>& state) {
+    SampleOutcome outcome;
+    const RunHooks<System> hooks = make_hooks(state);
+    auto finisher = static_solver(state);
     SolverOptions options;
     options.threads = job_.threads;
     options.energies = job_.scene.output.energies;
@@ -97,7 +104,6 @@ class SampleRun {
     return outcome;
   }
 
- private:
   std::string partial() const { return partial_name(job_.output); }
   // STATE.LABEL.h5
   std::string beside(const std::string& label) const {
@@ -105,53 +111,64 @@ class SampleRun {
     return (p.parent_path() / (p.stem().string() + "." + label + p.extension().string())).string();
   }
 
-  void write(const State& state, const std::string& path) const {
+  template <class System>
+  void write(const State<System>& state, const std::string& path) const {
     write_state(state, path, {std::string(version()), {}, job_.command});
   }
 
-  void end(const State& state, const SampleOutcome& outcome, const std::string& path) const {
-    if (watch_.ended) watch_.ended(state, outcome);
+  template <class System>
+  void end(const State<System>& state, const SampleOutcome& outcome, const std::string& path) const {
+    if (watch_.ended) watch_.ended(state_, outcome);
     write(state, path);
   }
 
-  void check_same(const State& found, const std::string& path) const {
-    if (found.seed != job_.seed)
-      throw InputError(path, 0, "seed", std::to_string(found.seed),
+  void check_same(const AnyState& found, const std::string& path) const {
+    const auto [seed, scene] =
+        std::visit([](const auto& s) { return std::pair(s.seed, scene_to_toml(s.scene)); }, found);
+    if (seed != job_.seed)
+      throw InputError(path, 0, "seed", std::to_string(seed),
                        "--resume needs the command line that made it: seed is now " + std::to_string(job_.seed));
-    if (scene_to_toml(found.scene) != scene_to_toml(job_.scene))
+    if (scene != scene_to_toml(job_.scene))
       throw InputError(path, 0, "scene", "", "--resume needs the command line that made it: the scene differs");
   }
 
-  State start() {
-    if (job_.resume && std::filesystem::exists(partial())) {
-      State state = read_state(partial());
-      check_same(state, partial());
-      resumed_at_ = state.time;
-      return state;
-    }
-    return initial_state(job_.scene, job_.seed);
+  static double time_of(const AnyState& state) {
+    return std::visit([](const auto& s) { return s.time; }, state);
   }
 
-  RunHooks make_hooks(const State& state) {
-    RunHooks hooks;
+  void start() {
+    if (job_.resume && std::filesystem::exists(partial())) {
+      state_ = read_state(partial());
+      check_same(state_, partial());
+      resumed_at_ = time_of(state_);
+    } else {
+      state_ = initial_state(job_.scene, job_.seed);
+    }
+  }
+
+  template <class System>
+  RunHooks<System> make_hooks(const State<System>& state) {
+    RunHooks<System> hooks;
     hooks.interrupted = watch_.interrupted;
     hooks.progress = watch_.progress;
-    hooks.checkpoint = [this](const State& s) { write(s, partial()); };
+    hooks.checkpoint = [this](const State<System>& s) { write(s, partial()); };
     hooks.checkpoint_seconds = kCheckpointSeconds;
     hooks.max_time = job_.max_time;
     const OutputScene& o = job_.scene.output;
     if (o.stages)
-      hooks.stage_end = [this](const State& s) {
+      hooks.stage_end = [this](const State<System>& s) {
         const auto next = static_cast<std::size_t>(s.progress.stage);
         if (next < job_.scene.stages.size()) write(s, beside("stage" + std::to_string(next - 1)));
       };
     if (!job_.series.empty()) {
-      series_ = std::make_unique<SeriesFile>(job_.series, o.energies, resumed_at_);
-      hooks.observe = [this](const State& s) { series_->add(s); };
+      series_ = std::make_unique<SeriesFile>(job_.series, series_columns(state, o.energies), resumed_at_);
+      hooks.observe = [this](const State<System>& s) { series_->add(series_columns(s, job_.scene.output.energies)); };
       hooks.observe_interval = o.series_interval;
     }
     if (!o.snapshot_times.empty() || !o.snapshot_solid_fractions.empty())
-      hooks.snapshot = [this, count = snapshots_before(state)](const State& s) mutable { write(s, snapshot(++count)); };
+      hooks.snapshot = [this, count = snapshots_before(state.time)](const State<System>& s) mutable {
+        write(s, snapshot(++count));
+      };
     return hooks;
   }
 
@@ -163,16 +180,17 @@ class SampleRun {
 
   // A resumed run numbers its snapshots on from the last one before the checkpoint. They are numbered in order of time:
   // from the last file back, only those are read that are written anew.
-  int snapshots_before(const State& state) const {
+  int snapshots_before(double time) const {
     int last = 0;
     if (resumed_at_ < 0) return 0;
     while (std::filesystem::exists(snapshot(last + 1))) ++last;
-    while (last > 0 && read_state(snapshot(last)).time > state.time) --last;
+    while (last > 0 && time_of(read_state(snapshot(last))) > time) --last;
     return last;
   }
 
   const SampleJob& job_;
   const SampleWatch& watch_;
+  AnyState state_;
   double resumed_at_ = -1;  // [T0]
   std::unique_ptr<SeriesFile> series_;
 };

@@ -9,7 +9,7 @@
 #include "apps/commands.hpp"
 #include "dem/run/stages.hpp"
 #include "dem/scene/scene.hpp"
-#include "dem/state/state.hpp"
+#include "dem/systems.hpp"
 
 namespace isostat {
 
@@ -36,7 +36,7 @@ struct SampleWatch {
   std::function<bool()> interrupted;
   std::function<void(const Progress&)> progress;
   // The run has ended as `outcome` says; the state is about to be written, as final or (interrupted) as partial.
-  std::function<void(const State&, const SampleOutcome&)> ended;
+  std::function<void(const AnyState&, const SampleOutcome&)> ended;
 };
 
 // NAME.h5 -> NAME.h5.partial: where a run that has not ended goes on from.

@@ -8,7 +8,7 @@
 #include "analysis/finishing/settling_network.hpp"
 #include "analysis/vector_algebra.hpp"
 
-#include "dem/state/energy.hpp"
+#include "dem/disks/energy.hpp"
 
 namespace isostat {
 namespace {
@@ -31,7 +31,7 @@ constexpr double kLonger = 32;           // [-] then steps grow beyond that, to 
 constexpr double kStepTolerance = 1e-3;  // of the force tolerance: how well an implicit step's equations are met
 constexpr double kDriftLeft = 1e-2;      // of the kinetic tolerance. Vibrations die at once here, but they are most
                                          // of the energy that lets floppy modes drift on under the bare law: to
-                                     // stop at the tolerance itself would miss contacts (docs/measured/equilibrium.md)
+// stop at the tolerance itself would miss contacts (docs/measured/equilibrium.md)
 constexpr double kFreed = 10, kCaptures = 10;  // the kinetic energy may reach so many times its start, and the work of
                                                // so many attractions F0 D0 beside; beyond it is a collapse
 constexpr double kShift = 1e-9;    // of K_N: inertia / dt^2 is never less, so that floppy modes stay regular
@@ -60,7 +60,7 @@ class StepLength {
 
 class Settling {
  public:
-  Settling(State& state, const FinishingRequest& request, const std::function<void(const SettlingStep&)>& watch)
+  Settling(State<Disks>& state, const FinishingRequest& request, const std::function<void(const SettlingStep&)>& watch)
       : s_(state),
         request_(request),
         network_(state, request),
@@ -70,7 +70,7 @@ class Settling {
       if (stress) scale_ = std::max(scale_, std::abs(*stress));
     scale_ = std::max(scale_, s_.law.attraction);
     if (!(scale_ > 0)) scale_ = 1;
-    const Vec2& length = state.packing.cell->length;
+    const Vec2& length = network_.extent();
     target_ = std::max(kTarget * scale_, kRounding * s_.law.normal_stiffness * std::numeric_limits<double>::epsilon() *
                                              std::max(length[0], length[1]));
     double lightest = INFINITY;
@@ -202,7 +202,7 @@ class Settling {
     return false;
   }
 
-  static double without_injection(const State& state) {
+  static double without_injection(const State<Disks>& state) {
     Energies e = energies(state);
     e.ledger.injected = 0;
     return e.total();
@@ -231,7 +231,7 @@ class Settling {
            kinetic() < kinetic_part * t.kinetic_energy * scale_;
   }
 
-  State& s_;
+  State<Disks>& s_;
   const FinishingRequest& request_;
   SettlingNetwork network_;
   ImplicitStep step_;
@@ -243,7 +243,7 @@ class Settling {
 
 }  // namespace
 
-FinishingReport NewtonFinishing::settle(State& state, const FinishingRequest& request) {
+FinishingReport NewtonFinishing::settle(State<Disks>& state, const FinishingRequest& request) {
   return Settling(state, request, watch_).run();
 }
 

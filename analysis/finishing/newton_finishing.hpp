@@ -4,6 +4,7 @@
 #pragma once
 #include <functional>
 
+#include "dem/disks/disks.hpp"
 #include "dem/run/finishing.hpp"
 
 namespace isostat {
@@ -21,10 +22,10 @@ struct SettlingStep {
   const char* refused = "";   // why it was not accepted
 };
 
-class NewtonFinishing : public StaticSolver {
+class NewtonFinishing : public StaticSolver<Disks> {
  public:
   explicit NewtonFinishing(std::function<void(const SettlingStep&)> watch = {}) : watch_(std::move(watch)) {}
-  FinishingReport settle(State& state, const FinishingRequest& request) override;
+  FinishingReport settle(State<Disks>& state, const FinishingRequest& request) override;
 
  private:
   std::function<void(const SettlingStep&)> watch_;

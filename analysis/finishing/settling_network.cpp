@@ -8,6 +8,7 @@
 #include "dem/disks/at_rest.hpp"
 #include "dem/state/balance.hpp"
 #include "dem/state/touching.hpp"
+#include "geometry/cell_grid.hpp"
 
 namespace isostat {
 namespace {
@@ -43,8 +44,10 @@ Yielding clamped(double trial, double limit) {
 
 }  // namespace
 
-SettlingNetwork::SettlingNetwork(const State& state, const FinishingRequest& request)
-    : law_(state.law), stress_(request.stress), length_(state.packing.cell.value().length) {
+SettlingNetwork::SettlingNetwork(const State<Disks>& state, const FinishingRequest& request)
+        : law_(state.law), stress_(request.stress), periodic_(state.packing.cell.has_value()) {
+  const Frame<2> frame = frame_of(state.packing.cell, state.packing.bodies.position);
+  length_ = frame.length;
   const Bodies<2>& b = state.packing.bodies;
   order_.resize(b.size());
   std::iota(order_.begin(), order_.end(), 0);
@@ -60,6 +63,7 @@ SettlingNetwork::SettlingNetwork(const State& state, const FinishingRequest& req
     smallest_ = std::min(smallest_, 2 * b.radius[k]), largest_ = std::max(largest_, 2 * b.radius[k]);
   }
   largest_step_ = kLargestStep * smallest_, skin_ = kSkin * smallest_;
+  if (!periodic_) length_ += Vec2{{largest_, largest_}};
   width_ = std::sqrt(area());
   for (int a = 0; a < 2; ++a)
     if (stress_[at(a)]) {
@@ -78,7 +82,7 @@ SettlingNetwork::SettlingNetwork(const State& state, const FinishingRequest& req
   forces(std::vector<double>(size(), 0.0));
 }
 
-std::vector<double> SettlingNetwork::velocities(const State& state) const {
+std::vector<double> SettlingNetwork::velocities(const State<Disks>& state) const {
   std::vector<double> v(size(), 0.0);
   const Bodies<2>& b = state.packing.bodies;
   for (std::size_t r = 0; r < grains(); ++r) {
@@ -103,7 +107,7 @@ void SettlingNetwork::refresh() {
   std::sort(springs.begin(), springs.end(), [](const Spring& a, const Spring& b) { return key(a) < key(b); });
 
   Packing<2> packing;
-  packing.cell = PeriodicCell<2>{length_};
+  if (periodic_) packing.cell = PeriodicCell<2>{length_};
   packing.bodies.resize(grains());
   packing.bodies.position = position_, packing.bodies.radius = radius_;
   pairs_.clear();
@@ -431,7 +435,7 @@ SettlingNetwork::Balance SettlingNetwork::balance() const {
   return b;
 }
 
-void SettlingNetwork::store(State& state, const std::vector<double>& velocity) const {
+void SettlingNetwork::store(State<Disks>& state, const std::vector<double>& velocity) const {
   Bodies<2>& b = state.packing.bodies;
   for (std::size_t r = 0; r < grains(); ++r) {
     const std::size_t k = at(order_[r]);
@@ -439,7 +443,7 @@ void SettlingNetwork::store(State& state, const std::vector<double>& velocity) c
     b.velocity[k] = {{velocity[3 * r], velocity[3 * r + 1]}};
     b.spin[k] = velocity[3 * r + 2];
   }
-  state.packing.cell->length = length_;
+  if (periodic_) state.packing.cell->length = length_;
   for (std::size_t s = 0; s < directions_.size(); ++s) {
     const int a = directions_[s];
     state.cell_motion.strain_rate[a] =
@@ -456,8 +460,10 @@ void SettlingNetwork::store(State& state, const std::vector<double>& velocity) c
     l.kind = kind_of(state.law, l.gap, l.tangential_force, l.moment);
     state.packing.links.push_back(l);
   }
-  const StressTensor stress = measured_stress(state.packing);
-  state.cell_motion.stress = {{stress.xx, stress.yy}};
+  if (periodic_) {
+    const StressTensor stress = measured_stress(state.packing);
+    state.cell_motion.stress = {{stress.xx, stress.yy}};
+  }
   state.memory = {};
 }
 

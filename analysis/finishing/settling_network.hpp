@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "analysis/stiffness/sparse_cholesky.hpp"
+#include "dem/disks/disks.hpp"
 #include "dem/run/finishing.hpp"
 #include "dem/state/link.hpp"
-#include "dem/state/state.hpp"
 
 namespace isostat {
 
@@ -25,14 +25,14 @@ enum class Links { act, hold };
 
 class SettlingNetwork {
  public:
-  SettlingNetwork(const State& state, const FinishingRequest& request);
+  SettlingNetwork(const State<Disks>& state, const FinishingRequest& request);
 
   std::size_t grains() const { return position_.size(); }
   std::size_t size() const { return 3 * grains() + directions_.size(); }
   // Inertia of each unknown: m, I, and M A (L / L0) / w^2 of the cell.
   const std::vector<double>& inertia() const { return inertia_; }
   // Velocities of the state, by unknown; and the other way round.
-  std::vector<double> velocities(const State& state) const;
+  std::vector<double> velocities(const State<Disks>& state) const;
 
   // Forces at a trial step; keeps what the tangent needs. Pairs are found up to a skin: see refresh().
   const std::vector<double>& forces(const std::vector<double>& step, Links links = Links::act);
@@ -63,10 +63,12 @@ class SettlingNetwork {
   // The part of the trial step of the last forces() after which it first brings a cohesive pair within reach or into
   // contact, if it does.
   std::optional<double> first_capture() const;
+  // Edges of the cell; of an isolated packing those of the box of its grains [a].
+  const Vec2& extent() const { return length_; }
   double area() const { return length_[0] * length_[1]; }
 
   // Puts the accepted configuration and the given velocities into a state; its memory is emptied.
-  void store(State& state, const std::vector<double>& velocity) const;
+  void store(State<Disks>& state, const std::vector<double>& velocity) const;
 
  private:
   struct Pair {  // candidate link, i <= j in the order of ids
@@ -95,8 +97,9 @@ class SettlingNetwork {
   void couple_active_pairs();
   void make_pattern();
 
-  LawParameters law_;
+  DiskLaw law_;
   std::array<std::optional<double>, 2> stress_;
+  bool periodic_;
   std::vector<int> directions_;
   std::vector<std::int32_t> order_;  // storage index by rank of the id
   std::vector<Vec2> position_, listed_at_;

@@ -17,7 +17,7 @@ constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
 // Largest difference between a link's stored normal force and the static law at the gap of the stored positions [F1]:
 // shows a file whose forces and positions do not belong together.
-double law_residual(const State& state, double scale) {
+double law_residual(const State<Disks>& state, double scale) {
   double largest = 0;
   for (const Link<2>& link : state.packing.links) {
     const double gap = frame(ends(state.packing, link)).gap;
@@ -29,7 +29,7 @@ double law_residual(const State& state, double scale) {
 }  // namespace
 
 nlohmann::ordered_json equilibrium_section(const AnalysisInput& input, const AnalysisOptions&) {
-  const State& state = input.state;
+  const State<Disks>& state = input.state;
   const Certificate c = evaluate_certificate(state);
   const auto contacts = std::count_if(state.packing.links.begin(), state.packing.links.end(),
                                       [](const Link<2>& l) { return is_contact(l.kind); });

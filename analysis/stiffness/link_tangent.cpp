@@ -21,7 +21,7 @@ LinkTangent::Response LinkTangent::to_dof(int d) const {
   return (*this)(d % 3 == 0 ? sign : 0, d % 3 == 1 ? sign : 0, d == 2, d == 5);
 }
 
-std::vector<LinkTangent> link_tangents(const Packing<2>& packing, NetworkLaw network_law, const LawParameters& law) {
+std::vector<LinkTangent> link_tangents(const Packing<2>& packing, NetworkLaw network_law, const DiskLaw& law) {
   std::vector<LinkTangent> tangents;
   tangents.reserve(packing.links.size());
   for (const Link<2>& link : packing.links) {
@@ -41,7 +41,7 @@ std::vector<LinkTangent> link_tangents(const Packing<2>& packing, NetworkLaw net
   return tangents;
 }
 
-UnsymmetricMatrix tangent_stiffness(const Packing<2>& packing, NetworkLaw network_law, const LawParameters& law) {
+UnsymmetricMatrix tangent_stiffness(const Packing<2>& packing, NetworkLaw network_law, const DiskLaw& law) {
   const DofLayout layout = dof_layout(packing.bodies.size(), network_law, false);
   const std::vector<LinkTangent> tangents = link_tangents(packing, network_law, law);
   Triplets entries;

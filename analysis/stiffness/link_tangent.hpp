@@ -33,9 +33,9 @@ struct LinkTangent {
 };
 
 // One for each link of the packing. Throws InputError as row_stiffness does.
-std::vector<LinkTangent> link_tangents(const Packing<2>& packing, NetworkLaw network_law, const LawParameters& law);
+std::vector<LinkTangent> link_tangents(const Packing<2>& packing, NetworkLaw network_law, const DiskLaw& law);
 
 // -d(body forces)/d(positions and angles) of the grains in a fixed cell, columns and rows as those of G.
-UnsymmetricMatrix tangent_stiffness(const Packing<2>& packing, NetworkLaw network_law, const LawParameters& law);
+UnsymmetricMatrix tangent_stiffness(const Packing<2>& packing, NetworkLaw network_law, const DiskLaw& law);
 
 }  // namespace isostat

@@ -30,7 +30,7 @@ std::array<std::vector<double>, 3> strain_velocities(const Packing<2>& packing, 
 
 }  // namespace
 
-Moduli elastic_moduli(const Packing<2>& packing, NetworkLaw network_law, const LawParameters& law) {
+Moduli elastic_moduli(const Packing<2>& packing, NetworkLaw network_law, const DiskLaw& law) {
   const RigidityMatrix g = rigidity_matrix(packing, network_law, false);
   const std::vector<double> k = row_stiffness(packing, g, law);
   bool definite = true;

@@ -25,8 +25,7 @@ struct PrestressedModes {
 // prestress stiffens them or makes them unstable (negative omega^2); what it leaves alone comes out as rounding, near
 // 0. Pieces up to kDensePiece dofs by dense QR, larger ones by Arnoldi (Spectra) on the inverse about `shift`
 // (UMFPACK). Throws InputError for grains without mass, FactorisationFailed if T - shift M is singular.
-PrestressedModes prestressed_modes(const Packing<2>& packing, NetworkLaw network_law, const LawParameters& law,
-                                   int count);
+PrestressedModes prestressed_modes(const Packing<2>& packing, NetworkLaw network_law, const DiskLaw& law, int count);
 inline constexpr std::size_t kDensePiece = 120;
 
 }  // namespace isostat

@@ -19,7 +19,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr int kReportedModes = 20, kTabulatedModes = 100;
 
-Json stiffness_of(const LawParameters& law) {
+Json stiffness_of(const DiskLaw& law) {
   return {{"normal", law.normal_stiffness},
           {"tangential", law.tangential_stiffness},
           {"rolling", law.rolling_stiffness},
@@ -54,7 +54,7 @@ Json described(const Moduli& m) {
 Json stiffness_section(const AnalysisInput& input, const AnalysisOptions& options) {
   const Packing<2>& packing = input.packing();
   const NetworkLaw network_law = input.network_law(options);
-  const LawParameters law = law_of(input);
+  const DiskLaw law = law_of(input);
   const ExactRank rank = exact_rank(packing, network_law, options.cell_free);
   const RigidityMatrix g = rigidity_matrix(packing, network_law, options.cell_free);
   const std::vector<double> k = row_stiffness(packing, g, law);
@@ -84,7 +84,7 @@ Json stiffness_section(const AnalysisInput& input, const AnalysisOptions& option
 Json moduli_section(const AnalysisInput& input, const AnalysisOptions& options) {
   const Packing<2>& packing = input.packing();
   const NetworkLaw network_law = input.network_law(options);
-  const LawParameters law = law_of(input);
+  const DiskLaw law = law_of(input);
   const ExactRank rank = exact_rank(packing, network_law, false);
   Json section = {{"tensor", nullptr}, {"floppy", rank.mechanisms > 0}, {"explanation", explain_floppy(rank)}};
   try {
@@ -109,7 +109,7 @@ Json moduli_section(const AnalysisInput& input, const AnalysisOptions& options) 
 Json modes_section(const AnalysisInput& input, const AnalysisOptions& options) {
   const Packing<2>& packing = input.packing();
   const NetworkLaw network_law = input.network_law(options);
-  const LawParameters law = law_of(input);
+  const DiskLaw law = law_of(input);
   Json section{{"omega", nullptr}};
   try {
     const VibrationModes modes = vibration_modes(packing, network_law, law, kReportedModes, false);

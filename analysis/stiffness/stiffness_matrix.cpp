@@ -8,9 +8,9 @@
 
 namespace isostat {
 
-LawParameters default_network_law() { return resolve(LawScene{}); }
+DiskLaw default_network_law() { return resolve(LawScene{}); }
 
-std::vector<double> row_stiffness(const Packing<2>& packing, const RigidityMatrix& g, const LawParameters& law) {
+std::vector<double> row_stiffness(const Packing<2>& packing, const RigidityMatrix& g, const DiskLaw& law) {
   std::vector<double> k(static_cast<std::size_t>(g.rows()));
   for (std::size_t r = 0; r < k.size(); ++r) {
     const bool distant = packing.links[static_cast<std::size_t>(g.link_of_row[r])].kind == LinkKind::distant;

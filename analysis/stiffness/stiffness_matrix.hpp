@@ -10,10 +10,10 @@ namespace isostat {
 
 // Stiffness of each row of G [F0/a, moments F0 a]: K_N, K_T, K_r, and -F0/D0 for the normal row of a distant link.
 // Throws InputError if the network has distant links and the law no attraction.
-std::vector<double> row_stiffness(const Packing<2>& packing, const RigidityMatrix& g, const LawParameters& law);
+std::vector<double> row_stiffness(const Packing<2>& packing, const RigidityMatrix& g, const DiskLaw& law);
 
 // The law of a network that brings none: the default scene's (K_N = K_T = 1e5 F0/a, K_r = 1e-4 a^2 K_N, D0 = 1e-3 a).
-LawParameters default_network_law();
+DiskLaw default_network_law();
 
 // Lower triangle of G^T diag(weight) G.
 SymmetricMatrix weighted_normal_matrix(const RigidityMatrix& g, const std::vector<double>& weight);

@@ -3,7 +3,7 @@
 #include "analysis/stiffness/moduli.hpp"
 
 namespace isostat {
-TangentModuli tangent_moduli(const Packing<2>& packing, NetworkLaw network_law, const LawParameters& law) {
+TangentModuli tangent_moduli(const Packing<2>& packing, NetworkLaw network_law, const DiskLaw& law) {
   const std::int32_t per_body = dof_layout(packing.bodies.size(), network_law, false).per_body;
   const auto count = packing.bodies.size();
 

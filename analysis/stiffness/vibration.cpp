@@ -10,7 +10,7 @@
 
 namespace isostat {
 
-LawParameters law_of(const AnalysisInput& input) { return input.has_law() ? input.state.law : default_network_law(); }
+DiskLaw law_of(const AnalysisInput& input) { return input.has_law() ? input.state.law : default_network_law(); }
 
 std::vector<double> dof_masses(const Packing<2>& packing, NetworkLaw network_law) {
   std::vector<double> mass;
@@ -24,7 +24,7 @@ std::vector<double> dof_masses(const Packing<2>& packing, NetworkLaw network_law
   return mass;
 }
 
-VibrationModes vibration_modes(const Packing<2>& packing, NetworkLaw network_law, const LawParameters& law, int count,
+VibrationModes vibration_modes(const Packing<2>& packing, NetworkLaw network_law, const DiskLaw& law, int count,
                                bool displacements) {
   const RigidityMatrix g = rigidity_matrix(packing, network_law, false);
   const std::vector<double> k = row_stiffness(packing, g, law);

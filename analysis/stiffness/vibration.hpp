@@ -20,10 +20,10 @@ std::vector<double> dof_masses(const Packing<2>& packing, NetworkLaw network_law
 
 // The `count` modes of smallest |omega| > 0. Throws InputError for grains without mass; FactorisationFailed as
 // in lowest_modes.hpp.
-VibrationModes vibration_modes(const Packing<2>& packing, NetworkLaw network_law, const LawParameters& law, int count,
+VibrationModes vibration_modes(const Packing<2>& packing, NetworkLaw network_law, const DiskLaw& law, int count,
                                bool displacements);
 
 // Law and rows for an input: the state's own law, or the default of a network.
-LawParameters law_of(const AnalysisInput& input);
+DiskLaw law_of(const AnalysisInput& input);
 
 }  // namespace isostat

@@ -8,6 +8,7 @@
 #include "apps/commands.hpp"
 #include "apps/json_output.hpp"
 #include "apps/lab/experiments.hpp"
+#include "dem/disks/disk_law.hpp"
 #include "dem/disks/lab/pair.hpp"
 #include "dem/input_error.hpp"
 
@@ -68,7 +69,7 @@ Json oblique(const Setup& setup) {
 }
 
 Json load_cycle(const Setup& setup) {
-  const LawParameters law = resolve(setup.law);
+  const DiskLaw law = resolve(setup.law);
   const double overlap = 1 / law.normal_stiffness;                   // N_e = F0
   const double slip = law.friction * overlap;                        // mu N_e / K_T with K_T = K_N
   const double roll = law.rolling_friction / law.rolling_stiffness;  // mu_r N_e / K_r

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/report.hpp"
+#include "dem/disks/physical_hash.hpp"
 #include "dem/files/atomic_file.hpp"
 #include "dem/input_error.hpp"
-#include "dem/state/physical_hash.hpp"
 
 namespace isostat {
 namespace {
@@ -25,7 +25,7 @@ std::optional<double> number(const Json& json) {
 
 std::string_view status_name(RunStatus status) { return kNames[static_cast<std::size_t>(status)]; }
 
-RunRecord record_of(const State& state) {
+RunRecord record_of(const State<Disks>& state) {
   RunRecord record;
   record.steps = state.step;
   record.time = state.time;

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "dem/state/state.hpp"
+#include "dem/disks/disks.hpp"
 
 namespace isostat {
 
@@ -30,7 +30,7 @@ struct RunRecord {
 };
 
 // What can be read off the state itself.
-RunRecord record_of(const State& state);
+RunRecord record_of(const State<Disks>& state);
 
 void write_record(const RunRecord& record, const std::string& path);
 // None if there is no such file, or none that can be understood (a record is no loss: the state is what counts).

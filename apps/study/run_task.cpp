@@ -17,10 +17,11 @@ namespace {
 constexpr double kTellSeconds = 0.25;
 
 // A state that came without a record: what it says of its own end.
-RunRecord adopted(const State& state) {
+template <class System>
+RunRecord adopted(const State<System>& state) {
   RunRecord record = record_of(state);
   const bool all_stages = state.progress.stage == static_cast<std::int32_t>(state.scene.stages.size());
-  if (all_stages && (state.scene.stages.back().until == "time" || record.certified)) {
+  if (all_stages && (state.scene.stages.back().until == Until::time || record.certified)) {
     record.status = RunStatus::ok;
   } else {
     record.status = RunStatus::unfinished;
@@ -57,8 +58,8 @@ RunRecord make_state(const StudyRun& run, bool tell_progress) {
   watch.interrupted = TaskLink::stop_requested;
   if (tell_progress) watch.progress = [&](const Progress& p) { tell(p, job.scene.stages.size()); };
   // Before the state: a record without its state is not believed, a state without its record would have lost something.
-  watch.ended = [&](const State& state, const SampleOutcome& outcome) {
-    record = record_of(state);
+  watch.ended = [&](const AnyState& any, const SampleOutcome& outcome) {
+    record = std::visit([](const auto& state) { return record_of(state); }, any);
     record.status = outcome.code == exit_done          ? RunStatus::ok
                     : outcome.code == exit_interrupted ? RunStatus::pending
                     : outcome.blew_up                  ? RunStatus::failed
@@ -79,7 +80,7 @@ std::optional<RunRecord> settled_record(const StudyRun& run) {
   if (auto record = read_record(run.record());
       record && record->hash == state_digest(run.state()).hash && record->status != RunStatus::pending)
     return record;
-  const RunRecord record = adopted(read_state(run.state()));
+  const RunRecord record = std::visit([](const auto& s) { return adopted(s); }, read_state(run.state()));
   write_record(record, run.record());
   return record;
 }

@@ -17,7 +17,11 @@ const StateDigest& state_digest(const std::string& path) {
   const auto found = known.find(version);
   if (found != known.end()) return found->second;
   StateFile file = read_state_file(path);
-  return known[version] = {std::move(file.hash), file.state.seed, std::move(file.state.scene)};
+  return std::visit(
+      [&](auto& state) -> const StateDigest& {
+        return known[version] = {std::move(file.hash), state.seed, std::move(state.scene)};
+      },
+      file.state);
 }
 
 }  // namespace isostat

@@ -4,7 +4,7 @@
 #pragma once
 #include <cmath>
 
-#include "dem/scene/scene.hpp"
+#include "dem/disks/disk_law.hpp"
 #include "dem/state/packing.hpp"
 
 namespace isostat {
@@ -22,28 +22,28 @@ struct AtRest {
 
 // Its two branches, whatever the gap: of a contact, N = -K_N h - F0, and of a distant link within reach,
 // N = -F0 (1 - h/D0).
-inline AtRest contact(const LawParameters& law, double gap) {
+inline AtRest contact(const DiskLaw& law, double gap) {
   return {-law.normal_stiffness * gap - law.attraction, law.normal_stiffness, 0.5 * law.normal_stiffness * gap * gap,
           -(law.attraction * (0.5 * law.attraction_range - gap))};
 }
-inline AtRest distant(const LawParameters& law, double gap) {
+inline AtRest distant(const DiskLaw& law, double gap) {
   const double range = law.attraction_range, reach = range - gap;
   return {-law.attraction * (1 - gap / range), -law.attraction / range, 0,
           -(0.5 * law.attraction * reach * reach / range)};
 }
 // By the gap; nothing beyond D0.
-inline AtRest at_rest(const LawParameters& law, double gap) {
+inline AtRest at_rest(const DiskLaw& law, double gap) {
   if (gap < 0) return contact(law, gap);
   if (law.attraction > 0 && gap <= law.attraction_range) return distant(law, gap);
   return {};
 }
 
 // N_e = -K_N h, what the Coulomb and rolling limits act on (Eqs. 8, 10) [F0].
-inline double repulsion(const LawParameters& law, double gap) { return -law.normal_stiffness * gap; }
+inline double repulsion(const DiskLaw& law, double gap) { return -law.normal_stiffness * gap; }
 struct Limits {
   double tangential = 0, rolling = 0;  // mu N_e [F0], mu_r N_e [F0 a]
 };
-inline Limits limits(const LawParameters& law, double gap) {
+inline Limits limits(const DiskLaw& law, double gap) {
   const double elastic = repulsion(law, gap);
   return {law.friction * elastic, law.rolling_friction * elastic};
 }
@@ -52,7 +52,7 @@ inline Limits limits(const LawParameters& law, double gap) {
 struct YieldMargin {
   double sliding = 1, rolling = 1;  // [-] 1 where the axis is absent; 0 at the limit; 0 if N_e <= 0
 };
-inline YieldMargin yield_margin(const LawParameters& law, double gap, double tangential_force, double moment) {
+inline YieldMargin yield_margin(const DiskLaw& law, double gap, double tangential_force, double moment) {
   const auto margin = [](double coefficient, double limit, double force) {
     if (coefficient <= 0) return 1.0;  // the axis is absent
     return limit > 0 ? 1 - std::abs(force) / limit : 0.0;
@@ -62,7 +62,7 @@ inline YieldMargin yield_margin(const LawParameters& law, double gap, double tan
 }
 
 // Kind of a link of a state: distant for gap >= 0, else by the yield margins.
-inline LinkKind kind_of(const LawParameters& law, double gap, double tangential_force, double moment) {
+inline LinkKind kind_of(const DiskLaw& law, double gap, double tangential_force, double moment) {
   if (!(gap < 0)) return LinkKind::distant;
   const YieldMargin m = yield_margin(law, gap, tangential_force, moment);
   const bool slides = m.sliding <= kYieldTolerance, rolls = m.rolling <= kYieldTolerance;
@@ -74,7 +74,7 @@ inline LinkKind kind_of(const LawParameters& law, double gap, double tangential_
 struct SpringEnergy {
   double tangential = 0, rolling = 0;
 };
-inline SpringEnergy spring_energy(const LawParameters& law, double tangential_force, double moment) {
+inline SpringEnergy spring_energy(const DiskLaw& law, double tangential_force, double moment) {
   const auto stored = [](double force, double stiffness) {
     return stiffness > 0 ? 0.5 * force * force / stiffness : 0.0;
   };

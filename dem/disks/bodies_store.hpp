@@ -2,6 +2,7 @@
 // cells of the neighbour grid. Beyond the last body lie pairs of far-apart rows that pad segments: one for each group
 // of a phase, because threads add to their loads at the same time.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -37,7 +38,22 @@ struct BodiesStore {
   const double* row(std::size_t k) const { return rows.data() + k * kernel::kRowWidth; }
   double* load(std::size_t k) { return loads.data() + k * kernel::kLoadWidth; }
   const double* load(std::size_t k) const { return loads.data() + k * kernel::kLoadWidth; }
-  Vec2 position(std::size_t k) const { return {{row(k)[0], row(k)[1]}}; }
+  Vec2 position(std::size_t k) const { return {{row(k)[kernel::Slot::x], row(k)[kernel::Slot::y]}}; }
+  double radius(std::size_t k) const { return constants[k].radius; }
+
+  // For the lists: body k is now at r, and body k goes to place to[k] of the storage.
+  void place(std::size_t k, const Vec2& r) { row(k)[kernel::Slot::x] = r[0], row(k)[kernel::Slot::y] = r[1]; }
+  void reorder(const std::vector<std::int32_t>& to) {
+    BodiesStore sorted;
+    sorted.resize(size());
+    for (std::size_t k = 0; k < size(); ++k) {
+      const auto t = static_cast<std::size_t>(to[k]);
+      sorted.id[t] = id[k], sorted.constants[t] = constants[k], sorted.inertia[t] = inertia[k];
+      std::copy_n(row(k), kernel::kRowWidth, sorted.row(t));
+      std::copy_n(load(k), kernel::kLoadWidth, sorted.load(t));
+    }
+    *this = std::move(sorted);
+  }
 
   static constexpr std::size_t kPads = 64;
   // The first body of the k-th padding pair of n bodies; the second follows it.

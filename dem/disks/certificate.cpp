@@ -18,8 +18,7 @@ struct Motion {
   double kinetic_energy = 0;
   std::int64_t moving = 0;
 };
-Motion motion_of(const Bodies<2>& bodies, const std::vector<BodyLoad>& loads, const LawParameters& law,
-                 double tolerance) {
+Motion motion_of(const Bodies<2>& bodies, const std::vector<BodyLoad>& loads, const DiskLaw& law, double tolerance) {
   const bool any_touching = std::any_of(loads.begin(), loads.end(), [](const BodyLoad& b) { return b.links > 0; });
   const bool all_count = law.attraction > 0 || !any_touching;
   Motion motion;
@@ -38,12 +37,12 @@ Motion motion_of(const Bodies<2>& bodies, const std::vector<BodyLoad>& loads, co
 
 }  // namespace
 
-double force_scale(const LawParameters& law, const ImposedStress& imposed) {
+double force_scale(const DiskLaw& law, const ImposedStress& imposed) {
   const double scale = std::max(law.attraction, std::abs(largest_stress(imposed).value_or(0.0)));
   return scale > 0 ? scale : 1.0;
 }
 
-Certificate evaluate_certificate(const Packing<2>& packing, const LawParameters& law, const ImposedStress& imposed,
+Certificate evaluate_certificate(const Packing<2>& packing, const DiskLaw& law, const ImposedStress& imposed,
                                  const EquilibriumScene& tolerance) {
   Certificate c;
   c.force_scale = force_scale(law, imposed);
@@ -83,7 +82,13 @@ Certificate evaluate_certificate(const Packing<2>& packing, const LawParameters&
   return c;
 }
 
-Certificate evaluate_certificate(const State& state) {
+std::size_t loaded_contacts(const State<Disks>& s) {
+  return static_cast<std::size_t>(std::count_if(s.packing.links.begin(), s.packing.links.end(), [&s](const Link<2>& l) {
+    return is_contact(l.kind) && (s.law.attraction > 0 || l.normal_force > kLoadTolerance * s.certificate.force_scale);
+  }));
+}
+
+Certificate evaluate_certificate(const State<Disks>& state) {
   Certificate c = evaluate_certificate(state.packing, state.law, state.imposed_stress, state.scene.equilibrium);
   c.finishing = state.certificate.finishing;
   c.moving = std::max(c.moving, state.certificate.moving);  // a static solve knows of slower ones

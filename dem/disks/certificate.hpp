@@ -1,20 +1,23 @@
 // The certificate of a packing of disks, dem/state/certificate.hpp.
 #pragma once
+#include "dem/disks/disks.hpp"
 #include "dem/scene/scene.hpp"
 #include "dem/state/certificate.hpp"
-#include "dem/state/state.hpp"
 
 namespace isostat {
 
 // F1 = max(F0, a P) [F0], a = 1 the largest diameter; the unit of force where neither is positive.
-double force_scale(const LawParameters& law, const ImposedStress& imposed);
+double force_scale(const DiskLaw& law, const ImposedStress& imposed);
 
 // O(grains + links). The kinetic energy is a mean over grains; without cohesion the grains that touch nothing do not
 // count (they keep their spin for ever) unless none touches, and without friction spins do not count (no force acts on
 // them). The pressure criterion applies to the directions with an imposed stress. `finishing` is left at "none".
-Certificate evaluate_certificate(const Packing<2>& packing, const LawParameters& law, const ImposedStress& imposed,
+Certificate evaluate_certificate(const Packing<2>& packing, const DiskLaw& law, const ImposedStress& imposed,
                                  const EquilibriumScene& tolerance);
+// Contacts that carry a force, or with cohesion all of them. Without it the contacts of rattlers come and go.
+std::size_t loaded_contacts(const State<Disks>& state);
+
 // From everything a state holds; keeps the state's record of its finishing method.
-Certificate evaluate_certificate(const State& state);
+Certificate evaluate_certificate(const State<Disks>& state);
 
 }  // namespace isostat

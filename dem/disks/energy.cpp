@@ -1,9 +1,10 @@
-#include "dem/state/energy.hpp"
+#include "dem/disks/energy.hpp"
+
 #include "dem/disks/at_rest.hpp"
 
 namespace isostat {
 
-Energies energies(const State& s) {
+Energies energies(const State<Disks>& s) {
   Energies e;
   e.ledger = s.ledger;
   const Bodies<2>& b = s.packing.bodies;

@@ -3,8 +3,8 @@
 //
 //   u(n+1/2) = u(n-1/2) + dt F(n)/m,   x(n+1) = x(n) + dt u(n+1/2),   p(n+1) = u(n+1/2) + dt/2 F(n)/m
 // p is the velocity at n+1 to second order, so damping forces are second-order too (steps too large to be stable with
-// that look less far ahead). Springs of friction and rolling
-// are stretched by the half-step velocities, i.e. by the displacements themselves: that keeps them conservative.
+// that look less far ahead). Springs of friction and rolling are
+// stretched by the half-step velocities, i.e. by the displacements themselves: that keeps them conservative.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -12,25 +12,17 @@
 #include <numbers>
 
 #include "dem/disks/bodies_store.hpp"
-#include "dem/scene/scene.hpp"
+#include "dem/disks/disk_law.hpp"
+#include "dem/solver/motion_step.hpp"
 
 namespace isostat {
-
-struct MotionStep {
-  double time_step = 0;           // dt [T0]
-  double prediction = 0.5;        // [dt] how far p is ahead of u, see velocity_prediction()
-  double scale[2] = {1, 1};       // L(n+1) / L(n): positions are rescaled with the cell
-  double half_scale[2] = {1, 1};  // L(n+1) / L(n+1/2)
-  double keep[2] = {1, 1};        // velocity kept over the step: 1 - drag dt (- rate coupling)
-  double keep_spin = 1;
-};
 
 // How far ahead of the half step damping can look [dt]. A half is exact to second order, but a force that depends on
 // the previous one is unstable sooner: a mode of frequency w and damping rate g needs w^2 dt^2/2 + g dt (1 + 2
 // prediction) < 2. The bound is put to the stiffest mode of a lattice of the smallest grains (w^2 = 6 K_N/m, every
 // contact damped: g = 6 sqrt(2) zeta sqrt(K_N/m)); larger steps look less far ahead, down to the half step itself. zeta
 // [-], mass of the smallest grain [m], dt [T0].
-inline double velocity_prediction(const LawParameters& law, double smallest_mass, double time_step) {
+inline double velocity_prediction(const DiskLaw& law, double smallest_mass, double time_step) {
   const double s = time_step * std::sqrt(law.normal_stiffness / smallest_mass);
   const double damping = 6 * std::numbers::sqrt2 * law.damping * s;
   if (!(damping > 0)) return 0.5;
@@ -46,7 +38,9 @@ struct MotionTally {
 struct MotionNeeds {
   bool rotation = true, free_cell = true;
 };
-using MotionKernel = MotionTally (*)(BodiesStore&, std::size_t begin, std::size_t end, const MotionStep&);
+// prediction [dt]: how far p is ahead of u, see velocity_prediction().
+using MotionKernel = MotionTally (*)(BodiesStore&, std::size_t begin, std::size_t end, const MotionStep&,
+                                     double prediction);
 MotionKernel select_motion(MotionNeeds needs);
 
 }  // namespace isostat

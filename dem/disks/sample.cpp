@@ -8,6 +8,7 @@
 #include "dem/disks/scales.hpp"
 #include "dem/files/packing_file.hpp"
 #include "dem/input_error.hpp"
+#include "dem/scene/check.hpp"
 #include "dem/scene/text.hpp"
 #include "dem/solver/random.hpp"
 #include "dem/state/touching.hpp"
@@ -69,23 +70,43 @@ namespace {
 
 constexpr double kMostOverlapAtStart = 0.1;  // [R_i + R_j] beyond, stored energy makes the first steps an explosion
 
-State without_bodies(const Scene& scene, std::uint64_t seed) {
-  State state;
+State<Disks> without_bodies(const Scene& scene, std::uint64_t seed) {
+  State<Disks> state;
   state.scene = scene;
   state.seed = seed;
   state.law = resolve(scene.law);
   return state;
 }
 
+// What a scene asks of the cell, of a file that has none.
+void refuse_without_cell(const Scene& scene, const std::string& path) {
+  std::vector<Fault> faults;
+  const auto refuse = [&](const std::string& key) {
+    faults.push_back({"scene", 0, key, "", "needs a periodic cell; the packing of " + path + " is isolated"});
+  };
+  for (std::size_t k = 0; k < scene.stages.size(); ++k) {
+    const StageScene& s = scene.stages[k];
+    if (s.pressure) refuse(stage_key(k, "pressure"));
+    if (s.stress_1) refuse(stage_key(k, "stress_1"));
+    if (s.stress_2) refuse(stage_key(k, "stress_2"));
+    if (s.driven(0)) refuse(stage_key(k, "strain_rate_1"));
+    if (s.driven(1)) refuse(stage_key(k, "strain_rate_2"));
+  }
+  if (!scene.output.snapshot_solid_fractions.empty()) refuse("output.snapshot_solid_fractions");
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
 // grains.file: bodies, cell and spring histories of a packing under the scene's law, at time 0.
-State state_from_file(const Scene& scene, std::uint64_t seed) {
+State<Disks> state_from_file(const Scene& scene, std::uint64_t seed) {
   const std::string& path = scene.grains.file;
   PackingFile file = read_packing(path);
   if (file.packing_3d) throw InputError(path, 0, "grains.file", path, "a packing of disks is wanted; this one is 3D");
   Packing<2>& packing = file.state.packing;
-  if (!packing.cell) throw InputError(path, 0, "grains.file", path, "a packing with a periodic cell is wanted");
+  if (!packing.cell) refuse_without_cell(scene, path);
+  if (!packing.beams.empty())
+    throw InputError(path, 0, "grains.file", path, "it has beams, which no run of disks can march yet");
   if (packing.bodies.size() == 0) throw InputError(path, 0, "grains.file", path, "it holds no grain");
-  State state = without_bodies(scene, seed);
+  State<Disks> state = without_bodies(scene, seed);
   state.packing = std::move(packing);
   set_disk_inertia(state.packing.bodies);
   if (!file.links_given) state.packing.links.clear();
@@ -105,16 +126,16 @@ State state_from_file(const Scene& scene, std::uint64_t seed) {
     throw InputError(path, 0, "step.fraction", real_text(scene.step.fraction),
                      "unstable for the smallest grain of this file, diameter " + real_text(smallest) + " a; below " +
                          real_text(bound));
-  state.cell_motion.reference_length = state.packing.cell->length;
+  if (state.packing.cell) state.cell_motion.reference_length = state.packing.cell->length;
   return state;
 }
 
 }  // namespace
 
-State initial_state(const Scene& scene, std::uint64_t seed) {
+State<Disks> initial_disks(const Scene& scene, std::uint64_t seed) {
   const GrainsScene& g = scene.grains;
   if (!g.file.empty()) return state_from_file(scene, seed);
-  State state = without_bodies(scene, seed);
+  State<Disks> state = without_bodies(scene, seed);
   Random random(seed);
 
   const auto n = static_cast<std::size_t>(g.count);

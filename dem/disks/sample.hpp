@@ -1,7 +1,6 @@
 // The I-state: disks in random non-overlapping positions of a periodic cell, at rest (Gilabert 2007, Sec. III.A).
 #pragma once
-#include "dem/scene/scene.hpp"
-#include "dem/state/state.hpp"
+#include "dem/disks/disks.hpp"
 
 namespace isostat {
 
@@ -9,7 +8,7 @@ namespace isostat {
 void set_disk_inertia(Bodies<2>& bodies);
 
 // A state before its first stage: bodies, cell, law, time step. Throws InputError if the disks cannot be placed.
-State initial_state(const Scene& scene, std::uint64_t seed);
+State<Disks> initial_disks(const Scene& scene, std::uint64_t seed);
 
 // dt = c sqrt(m_max / K_N).
 double time_step(const Scene& scene, double normal_stiffness, const Bodies<2>& bodies);

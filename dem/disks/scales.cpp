@@ -6,18 +6,18 @@
 
 namespace isostat {
 
-double time_step(const LawParameters& law, double fraction, double diameter_max) {
+double time_step(const DiskLaw& law, double fraction, double diameter_max) {
   return fraction * diameter_max / std::sqrt(law.normal_stiffness);
 }
 
-double critical_time_step(const LawParameters& law, double diameter_min) {
+double critical_time_step(const DiskLaw& law, double diameter_min) {
   const double mass = diameter_min * diameter_min;
   const double translation = 6 * (law.normal_stiffness + law.tangential_stiffness) / mass;
   const double rotation = (24 * law.tangential_stiffness + 96 * law.rolling_stiffness / mass) / mass;
   return 2 / std::sqrt(std::max(translation, rotation));
 }
 
-Scales scales(const LawParameters& law, std::optional<double> pressure, double diameter_min, double time_step) {
+Scales scales(const DiskLaw& law, std::optional<double> pressure, double diameter_min, double time_step) {
   Scales s;
   s.force = std::max(law.attraction, std::abs(pressure.value_or(0)));
   if (s.force > 0) {
@@ -36,7 +36,7 @@ Scales scales(const LawParameters& law, std::optional<double> pressure, double d
   return s;
 }
 
-Scales scales(const State& state) {
+Scales scales(const State<Disks>& state) {
   const auto& radius = state.packing.bodies.radius;
   if (radius.empty()) return scales(state.law, largest_stress(state.imposed_stress), 1, state.time_step);
   const double smallest = *std::min_element(radius.begin(), radius.end());

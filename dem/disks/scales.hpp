@@ -2,8 +2,7 @@
 #pragma once
 #include <optional>
 
-#include "dem/scene/scene.hpp"
-#include "dem/state/state.hpp"
+#include "dem/disks/disks.hpp"
 
 namespace isostat {
 
@@ -20,11 +19,11 @@ struct Scales {
 };
 
 // diameter_min: of the smallest grain [a]; the mass of a disk is d^2 [m].
-Scales scales(const LawParameters& law, std::optional<double> pressure, double diameter_min, double time_step);
-Scales scales(const State& state);
+Scales scales(const DiskLaw& law, std::optional<double> pressure, double diameter_min, double time_step);
+Scales scales(const State<Disks>& state);
 
 // dt = fraction * sqrt(m_max / K_N) [T0].
-double time_step(const LawParameters& law, double fraction, double diameter_max);
+double time_step(const DiskLaw& law, double fraction, double diameter_max);
 
 // Largest stable step of the undamped central-difference scheme, dt < 2 / omega_max [T0], with omega_max bounded for
 // the smallest grain (mass m = d^2, inertia m d^2 / 8) among neighbours as small, at most six of them in the plane: the
@@ -32,7 +31,7 @@ double time_step(const LawParameters& law, double fraction, double diameter_max)
 //   translation  omega^2 = 2 * 6/2 (K_N + K_T) / m  (averaged over directions n n + t t = 1)
 //   rotation     omega^2 = 2 * 6 (K_T d^2/4 + K_r) / I = 24 K_T / m + 96 K_r / (m d^2)
 // The rotational value is reached, for K_r = 0, by equal disks on a triangular lattice all spinning alike.
-double critical_time_step(const LawParameters& law, double diameter_min);
+double critical_time_step(const DiskLaw& law, double diameter_min);
 
 // SI values of the units of a scene, and of what is derived from them.
 struct SiScales {

@@ -195,7 +195,7 @@ PackingFile read_packing(const std::string& given_path, const PackingReading& re
   switch (file.format) {
     case PackingFormat::state:
       if (reading.box) throw InputError(path, 0, "--box", "", "a state has its own cell; leave --box out");
-      file.state = read_state(path);
+      file.state = read_state<Disks>(path);
       file.links_given = true;
       break;
     case PackingFormat::network:
@@ -214,8 +214,8 @@ PackingFile read_packing(const std::string& given_path, const PackingReading& re
   return file;
 }
 
-State foreign_state(Packing<2> packing) {
-  State state;
+State<Disks> foreign_state(Packing<2> packing) {
+  State<Disks> state;
   state.packing = std::move(packing);
   return state;
 }

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "dem/disks/disks.hpp"
 #include "dem/state/packing.hpp"
-#include "dem/state/state.hpp"
 
 namespace isostat {
 
@@ -13,7 +13,7 @@ enum class PackingFormat { state, network, dump, csv };
 
 struct PackingFile {
   PackingFormat format = PackingFormat::state;
-  State state;                           // of a planar file; of another format than a state: foreign_state()
+  State<Disks> state;                    // of a planar file; of another format than a state: foreign_state()
   std::optional<Packing<3>> packing_3d;  // of a 3D file; `state` then has no grains
   bool links_given = false;              // the file lists its links; false: found by touching
 };
@@ -31,6 +31,6 @@ PackingFile read_packing(const std::string& path, const PackingReading& reading 
 PackingFormat sniff_packing_format(const std::string& path);
 
 // A state for a foreign packing: no law, no history, time 0; kinds, gaps and forces of the links as given.
-State foreign_state(Packing<2> packing);
+State<Disks> foreign_state(Packing<2> packing);
 
 }  // namespace isostat

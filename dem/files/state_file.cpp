@@ -6,6 +6,9 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "dem/disks/physical_hash.hpp"
+#include "dem/disks/state_check.hpp"
+#include "dem/disks/state_layout.hpp"
 #include "dem/files/atomic_file.hpp"
 #include "dem/files/hdf5_image.hpp"
 #include "dem/files/state_layout.hpp"
@@ -13,8 +16,6 @@
 #include "dem/input_error.hpp"
 #include "dem/scene/file.hpp"
 #include "dem/scene/text.hpp"
-#include "dem/state/physical_hash.hpp"
-#include "dem/state/state_check.hpp"
 
 namespace isostat {
 namespace {
@@ -32,7 +33,7 @@ struct Element {
   static constexpr std::size_t width = 1;
 };
 template <>
-struct Element<Vec2> {
+struct Element<Vec2> {  // two numbers side by side
   using Scalar = double;
   static constexpr std::size_t width = 2;
 };
@@ -204,28 +205,32 @@ class StateReader {
 
 const char* const kFormat = "isostat state";
 
-StateFile decode(const Hdf5Reader& file, const std::string& path) {
+template <class System>
+StateFile decode(const Hdf5Reader& file, const std::string& path, int sealed_version) {
   if (const std::string format = file.text_attribute("/", "format"); format != kFormat)
     throw InputError(path, 0, "/@format", format, "expected \"" + std::string(kFormat) + "\"");
-  if (const auto version = file.attribute<std::int64_t>("/", "format_version"); version != kStateFormatVersion)
+  if (const auto version = file.attribute<std::int64_t>("/", "format_version"); version != sealed_version)
     throw InputError(path, 0, "format_version", std::to_string(version),
-                     "this isostat reads format version " + std::to_string(kStateFormatVersion));
+                     "the seal says " + std::to_string(sealed_version));
   StateFile result;
+  State<System> state;
   StateReader reader(file, path);
-  transfer(reader, result.state);
+  transfer(reader, state);
   reader.value("/provenance", "version", result.provenance.version);
   reader.value("/provenance", "compiler", result.provenance.compiler);
   reader.value("/provenance", "command", result.provenance.command);
-  if (const auto fault = state_fault(result.state)) throw InputError(path, 0, fault->field, "", fault->rule);
-  result.hash = physical_hash(result.state);
+  if (const auto fault = state_fault(state)) throw InputError(path, 0, fault->field, "", fault->rule);
+  result.hash = physical_hash(state);
   if (const std::string stored = file.text_attribute("/", "hash"); stored != result.hash)
     throw InputError(path, 0, "hash", stored, "the physical state has the hash " + result.hash);
+  result.state = std::move(state);
   return result;
 }
 
 }  // namespace
 
-std::string encode_state(const State& state, Provenance provenance) {
+template <class System>
+std::string encode_state(const State<System>& state, Provenance provenance) {
   if (const auto fault = state_fault(state))
     throw std::invalid_argument("a state that cannot be kept: " + fault->field + ": " + fault->rule);
   if (provenance.compiler.empty()) provenance.compiler = kCompiler;
@@ -243,7 +248,7 @@ std::string encode_state(const State& state, Provenance provenance) {
     file.attribute("/h5md/creator", "name", std::string_view("isostat"));
     file.attribute("/h5md/creator", "version", std::string_view(provenance.version));
     StateWriter writer(file, state.time, state.step);
-    transfer(writer, const_cast<State&>(state));  // a writer only looks
+    transfer(writer, const_cast<State<System>&>(state));  // a writer only looks
     writer.value("/provenance", "version", provenance.version);
     writer.value("/provenance", "compiler", provenance.compiler);
     writer.value("/provenance", "command", provenance.command);
@@ -253,22 +258,34 @@ std::string encode_state(const State& state, Provenance provenance) {
   return image;
 }
 
+std::string encode_state(const AnyState& any, Provenance provenance) {
+  return std::visit([&](const auto& state) { return encode_state(state, std::move(provenance)); }, any);
+}
+
 StateFile decode_state(std::string_view image, const std::string& path) {
-  check_seal(image, path);
+  const int version = check_seal(image, path);
   try {
-    return decode(Hdf5Reader(image), path);
+    return decode<Disks>(Hdf5Reader(image), path, version);  // files without /@system are of disks
   } catch (const Hdf5Error& error) {
     throw InputError(path, 0, error.path, "", error.what());
   }
 }
 
-void write_state(const State& state, const std::string& path, Provenance provenance) {
+template <class System>
+void write_state(const State<System>& state, const std::string& path, Provenance provenance) {
   write_file_atomically(path, encode_state(state, std::move(provenance)));
 }
 
 StateFile read_state_file(const std::string& path) { return decode_state(read_whole_file(path), path); }
 
-State read_state(const std::string& path) { return read_state_file(path).state; }
+AnyState read_state(const std::string& path) { return read_state_file(path).state; }
+
+template <class System>
+State<System> read_state(const std::string& path) {
+  AnyState any = read_state(path);
+  if (auto* state = std::get_if<State<System>>(&any)) return std::move(*state);
+  throw InputError(path, 0, "system", "", "a state of " + std::string(System::name) + " is wanted");
+}
 
 bool is_state_file(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
@@ -277,5 +294,9 @@ bool is_state_file(const std::string& path) {
   head.resize(static_cast<std::size_t>(in.gcount()));
   return begins_like_state(head);
 }
+
+template std::string encode_state(const State<Disks>&, Provenance);
+template void write_state(const State<Disks>&, const std::string&, Provenance);
+template State<Disks> read_state(const std::string&);
 
 }  // namespace isostat

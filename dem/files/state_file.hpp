@@ -1,9 +1,9 @@
-// State files: one complete State in one HDF5 file, format version 1 of docs/formats.md.
+// State files: one complete State in one HDF5 file, in the format of docs/formats.md.
 #pragma once
 #include <string>
 #include <string_view>
 
-#include "dem/state/state.hpp"
+#include "dem/systems.hpp"
 
 namespace isostat {
 
@@ -17,25 +17,32 @@ struct Provenance {
 };
 
 struct StateFile {
-  State state;
+  AnyState state;
   Provenance provenance;
   std::string hash;  // physical_hash of the state
 };
 
 // Writes atomically (temporary name, sync, rename). Throws InputError if the path cannot be written, and
-// std::invalid_argument for a State that read_state would refuse (state_faults): nothing is written then.
-void write_state(const State& state, const std::string& path, Provenance provenance = {});
+// std::invalid_argument for a State that read_state would refuse (state_fault): nothing is written then.
+template <class System>
+void write_state(const State<System>& state, const std::string& path, Provenance provenance = {});
 
-// Throws one InputError for whatever is wrong: missing, no state file, truncated, damaged, of another format version,
-// incomplete, or inconsistent.
-State read_state(const std::string& path);
+// Throws one InputError for whatever is wrong: missing, no state file, truncated, damaged, of an unknown format
+// version, incomplete, or inconsistent.
+AnyState read_state(const std::string& path);
 StateFile read_state_file(const std::string& path);
+
+// Of one system; throws InputError for a state of another.
+template <class System>
+State<System> read_state(const std::string& path);
 
 // Whether the file is there and begins like a state of isostat of any version.
 bool is_state_file(const std::string& path);
 
 // The same in memory; `path` names the bytes in faults.
-std::string encode_state(const State& state, Provenance provenance = {});
+template <class System>
+std::string encode_state(const State<System>& state, Provenance provenance = {});
+std::string encode_state(const AnyState& state, Provenance provenance = {});
 StateFile decode_state(std::string_view image, const std::string& path);
 
 }  // namespace isostat

@@ -8,13 +8,15 @@
 namespace isostat {
 
 inline constexpr std::size_t kSealBytes = 512;  // a user block in the sense of HDF5
-inline constexpr int kStateFormatVersion = 3;   // docs/formats.md
+inline constexpr int kStateFormatVersion = 3;   // that is written; docs/formats.md
+inline constexpr int kOldestStateFormat = 3;    // that is read
 
 // Fills the first kSealBytes of an HDF5 image that has a user block of that size.
 void seal_state(std::string& image);
 
-// Throws InputError unless the bytes carry a seal of this format version that fits them.
-void check_seal(std::string_view image, const std::string& path);
+// Throws InputError unless the bytes carry a seal of a format version from the oldest that is read to the present one,
+// and one that fits them; gives that version.
+int check_seal(std::string_view image, const std::string& path);
 
 // Whether the bytes begin like a state file of any version.
 bool begins_like_state(std::string_view bytes);

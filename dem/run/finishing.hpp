@@ -33,6 +33,7 @@ struct FinishingReport {
   std::string reason;               // why it did not settle, or what is left
 };
 
+template <class System>
 class StaticSolver {
  public:
   virtual ~StaticSolver() = default;
@@ -42,7 +43,7 @@ class StaticSolver {
   // do neither, the state stays as it is, bit for bit. `time` does not advance; the solver's memory is emptied, so that
   // a Solver made from the state starts from packing and links; the energy that the solve takes out goes to
   // ledger.injected. The result depends neither on threads nor on the order in which the grains are stored.
-  virtual FinishingReport settle(State& state, const FinishingRequest& request) = 0;
+  virtual FinishingReport settle(State<System>& state, const FinishingRequest& request) = 0;
 };
 
 }  // namespace isostat

@@ -1,19 +1,52 @@
-// What happens when a stage of a scene begins: velocities, time step, and what the cell is held by.
+// What happens once when a stage begins, and how the cell is controlled in it.
 #pragma once
-#include "dem/scene/scene.hpp"
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
 #include "dem/solver/barostat.hpp"
+#include "dem/state/balance.hpp"
 #include "dem/state/state.hpp"
 
 namespace isostat {
 
-// The opening actions; progress and cell motion start anew, velocities are drawn if the stage says so, and the time
-// step is set for the stiffest contacts that the stage will have.
-void open_stage(State& state, const StageScene& stage);
+// sigma_11, sigma_22 of the static forces [F0/a]; 0 without a cell.
+template <class System>
+Vec2 static_stress(const State<System>& s) {
+  if (!s.packing.cell) return {};
+  const StressTensor stress = measured_stress(s.packing);
+  return {{stress.xx, stress.yy}};
+}
 
-// How the cell is held during the stage; M in units of m.
-CellControl cell_control(const State& state, const StageScene& stage);
+// The system's own part comes first and last: the time step that the stage wants, the velocities it draws.
+template <class System>
+void open_stage(State<System>& s, const StageScene& stage) {
+  prepare_stage(s, stage);
+  s.progress.started = true;
+  s.progress.start_stress = static_stress(s);
+  s.progress.peak_stress = 0;
+  s.progress.drifting = false;
+  s.progress.start_time = s.time;
+  s.progress.drag_on = false;
+  s.progress.quiet_since = s.progress.unchanged_since = s.time;
+  s.cell_motion.reference_length = s.packing.cell ? s.packing.cell->length : Vec2{};
+  s.cell_motion.strain_rate = {};
+  s.imposed_stress = imposed_stress(stage);
+  agitate(s, stage);
+}
 
-// Measured sigma_11, sigma_22 from static forces [F0/a]; needs a cell.
-Vec2 static_stress(const State& state);
+template <class System>
+CellControl cell_control(const State<System>& s, const StageScene& stage) {
+  CellControl c;
+  c.stress = imposed_stress(stage);
+  c.strain_rate = {{stage.strain_rate_1.value_or(0), stage.strain_rate_2.value_or(0)}};
+  c.max_strain_rate = stage.max_strain_rate;
+  // In the order of size: the storage order, which changes in the run, must not show in the last bit after a restart.
+  std::vector<double> masses = s.packing.bodies.mass;
+  std::sort(masses.begin(), masses.end());
+  c.inertia = s.scene.cell.inertia * std::accumulate(masses.begin(), masses.end(), 0.0);
+  c.rate_coupling = s.scene.cell.rate_coupling;
+  return c;
+}
 
 }  // namespace isostat

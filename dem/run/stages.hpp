@@ -15,21 +15,23 @@ namespace isostat {
 // What an observer may see while a stage runs.
 struct Progress {
   std::int32_t stage = 0;
-  double time = 0;  // [T0]
-  double solid_fraction = 0;
-  WorstCriterion last;  // the equilibrium criterion furthest from being met
+  double time = 0;            // [T0]
+  double solid_fraction = 0;  // not a number without a cell
+  WorstCriterion last;        // the equilibrium criterion furthest from being met
   const Certificate* certificate = nullptr;
 };
 
 // Observers read; nothing they ask for changes the run.
+template <class System>
 struct RunHooks {
+  using Look = std::function<void(const State<System>&)>;
   std::function<bool()> interrupted;              // polled a few times a second; true: stop resumably
   std::function<void(const Progress&)> progress;  // at every look at the packing
-  std::function<void(const State&)> observe;      // at multiples of observe_interval [T0]
+  Look observe;                                   // at multiples of observe_interval [T0]
   double observe_interval = 0;                    // 0: never
-  std::function<void(const State&)> stage_end;    // after each stage, with progress at the next
-  std::function<void(const State&)> snapshot;     // at the scene's output.snapshot_times and _solid_fractions
-  std::function<void(const State&)> checkpoint;   // resumable, every checkpoint_seconds of wall time
+  Look stage_end;                                 // after each stage, with progress at the next
+  Look snapshot;                                  // at the scene's output.snapshot_times and _solid_fractions
+  Look checkpoint;                                // resumable, every checkpoint_seconds of wall time
   double checkpoint_seconds = 0;                  // 0: never
   double max_time = 0;                            // [T0] of the whole run; 0: no limit. Stages left then are not met.
 };
@@ -54,7 +56,8 @@ struct RunOutcome {
 // Goes on from wherever state.progress stands, to the end of the last stage. The state is left at the last instant
 // with its certificate. Throws RunError if the run blows up, after leaving the last sane snapshot in `state`.
 // finish.method = "newton" needs a finisher, else InputError.
-RunOutcome run_stages(State& state, const SolverOptions& options, const RunHooks& hooks,
-                      StaticSolver* finisher = nullptr);
+template <class System>
+RunOutcome run_stages(State<System>& state, const SolverOptions& options, const RunHooks<System>& hooks,
+                      StaticSolver<System>* finisher = nullptr);
 
 }  // namespace isostat

@@ -1,4 +1,4 @@
-// Rules that tie several scene keys together. The rules of single keys are in dem/scene/keys.cpp.
+// Rules that tie several scene keys together. The rules of single keys are in the table of keys (dem/scene/keys.hpp).
 #pragma once
 #include <string>
 #include <vector>
@@ -13,6 +13,11 @@ struct SceneConflict {
   std::string rule;                   // what is allowed, and what to change
   std::vector<std::string> involved;  // all keys the rule looks at
 };
+
+std::string stage_key(std::size_t stage, const char* key);  // full name of a key of a [[stage]]
+
+// The rules of the scene's system (dem/systems.cpp).
+std::vector<SceneConflict> system_conflicts(const Scene& scene);
 
 // Every broken rule, each at most once a stage. The values are taken to be in their own ranges.
 std::vector<SceneConflict> conflicts(const Scene& scene);

@@ -268,10 +268,12 @@ class Parser {
     target = std::move(values);
     return true;
   }
-  static bool store(const SceneKey& key, Finish& target, const toml::node& node) {
+  template <class Choice>
+  requires std::is_enum_v<Choice>
+  static bool store(const SceneKey& key, Choice& target, const toml::node& node) {
     std::string name;
     if (!store(key, name, node)) return false;
-    target = static_cast<Finish>(std::find(key.choices.begin(), key.choices.end(), name) - key.choices.begin());
+    target = static_cast<Choice>(std::find(key.choices.begin(), key.choices.end(), name) - key.choices.begin());
     return true;
   }
 

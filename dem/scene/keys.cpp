@@ -1,132 +1,28 @@
+// The rows that all systems share, and the table made of them and of each system's own.
 #include "dem/scene/keys.hpp"
 
-#include <type_traits>
+#include <algorithm>
+
+#include "dem/scene/key_rows.hpp"
 
 namespace isostat {
 namespace {
 
-template <class>
-constexpr bool is_vector = false;
-template <class T>
-constexpr bool is_vector<std::vector<T>> = true;
-template <class>
-constexpr bool is_optional = false;
-template <class T>
-constexpr bool is_optional<std::optional<T>> = true;
-
-// The field Scene::Group.Member; Group may be a struct, the optional [units] (must be there) or the stages.
-template <auto Group, auto Member>
-SceneField in(Scene& scene, std::size_t stage) {
-  auto& group = scene.*Group;
-  using Type = std::remove_cvref_t<decltype(group)>;
-  if constexpr (is_vector<Type>)
-    return &(group[stage].*Member);
-  else if constexpr (is_optional<Type>)
-    return &((*group).*Member);
-  else
-    return &(group.*Member);
-}
 SceneField seed_field(Scene& scene, std::size_t) { return &scene.seed; }
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr SceneRange positive{0, kInfinity, true, false};
-constexpr SceneRange not_negative{0, kInfinity, false, false};
-constexpr SceneRange from(double low, double high) { return {low, high, false, false}; }
-
-constexpr SceneCondition random_start{[](const Scene& s) { return s.grains.file.empty(); }, "grains.file is empty"};
-constexpr SceneCondition has_friction{[](const Scene& s) { return s.law.friction > 0; }, "law.friction > 0"};
-constexpr SceneCondition has_rolling{[](const Scene& s) { return s.law.rolling; }, "law.rolling = true"};
-constexpr SceneCondition has_attraction{[](const Scene& s) { return s.law.attraction > 0; }, "law.attraction > 0"};
 constexpr SceneCondition has_finishing{[](const Scene& s) { return s.finish.method != Finish::none; },
                                        "finish.method is not \"none\""};
 constexpr SceneCondition has_series{[](const Scene& s) { return !s.output.series.empty(); }, "output.series is given"};
 
-std::vector<SceneKey> make_table() {
+std::vector<SceneKey> common_keys() {
   using S = Scene;
+  using namespace key_rows;
   return {
       {.name = "seed",
        .field = seed_field,
        .range = not_negative,
        .meaning =
            "Seed of the random generator; the same scene and seed give the same bits for any number of threads."},
-
-      {.name = "grains.count",
-       .field = in<&S::grains, &GrainsScene::count>,
-       .range = from(1, 1e9),
-       .condition = random_start,
-       .meaning = "Number N of disks."},
-      {.name = "grains.solid_fraction",
-       .field = in<&S::grains, &GrainsScene::solid_fraction>,
-       .range = {0, 0.5, true, false},
-       .condition = random_start,
-       .meaning = "Solid fraction Phi_I of the initial state: sum of pi d^2/4 over the area of the cell. Equal disks "
-                  "placed at random without overlap saturate at 0.547, hence the limit."},
-      {.name = "grains.diameter_min",
-       .field = in<&S::grains, &GrainsScene::diameter_min>,
-       .unit = "a",
-       .range = positive,
-       .condition = random_start,
-       .meaning = "Smallest diameter; diameters are uniform between the two."},
-      {.name = "grains.diameter_max",
-       .field = in<&S::grains, &GrainsScene::diameter_max>,
-       .unit = "a",
-       .range = positive,
-       .condition = random_start,
-       .meaning = "Largest diameter, the unit of length: leave it at 1 unless you know why."},
-      {.name = "grains.file",
-       .field = in<&S::grains, &GrainsScene::file>,
-       .meaning = "A state file or a plain-text network to start from instead of random positions; relative to the "
-                  "directory in which the program runs. Empty: random."},
-
-      {.name = "law.normal_stiffness",
-       .field = in<&S::law, &LawScene::normal_stiffness>,
-       .unit = "F0/a",
-       .range = positive,
-       .meaning = "K_N of the contacts. The stiffness parameter is kappa = K_N / max(F0/a, P)."},
-      {.name = "law.tangential_stiffness",
-       .field = in<&S::law, &LawScene::tangential_stiffness>,
-       .unit = "F0/a",
-       .range = positive,
-       .absent = "law.normal_stiffness",
-       .condition = has_friction,
-       .meaning = "K_T of the contacts."},
-      {.name = "law.damping",
-       .field = in<&S::law, &LawScene::damping>,
-       .range = from(0, 1),
-       .meaning = "zeta, the normal viscous damping as a fraction of the critical damping of each pair (Gilabert 2007, "
-                  "Eq. 6)."},
-      {.name = "law.friction",
-       .field = in<&S::law, &LawScene::friction>,
-       .range = not_negative,
-       .meaning = "mu, Coulomb friction; its limit acts on the elastic repulsion K_N |h| alone. 0: frictionless, no "
-                  "rotations."},
-      {.name = "law.rolling", .field = in<&S::law, &LawScene::rolling>, .meaning = "Rolling resistance on or off."},
-      {.name = "law.rolling_friction",
-       .field = in<&S::law, &LawScene::rolling_friction>,
-       .unit = "a",
-       .range = not_negative,
-       .absent = "0.01 law.friction",
-       .condition = has_rolling,
-       .meaning = "mu_r: the rolling moment is at most mu_r K_N |h|."},
-      {.name = "law.rolling_stiffness",
-       .field = in<&S::law, &LawScene::rolling_stiffness>,
-       .unit = "F0 a",
-       .range = positive,
-       .absent = "1e-4 law.normal_stiffness",
-       .condition = has_rolling,
-       .meaning = "K_r of the rolling springs."},
-      {.name = "law.attraction",
-       .field = in<&S::law, &LawScene::attraction>,
-       .unit = "F0",
-       .range = not_negative,
-       .meaning = "Attractive force F0 of a contact; 1 by the choice of unit, 0: no cohesion (then the unit of force "
-                  "is a P)."},
-      {.name = "law.attraction_range",
-       .field = in<&S::law, &LawScene::attraction_range>,
-       .unit = "a",
-       .range = positive,
-       .condition = has_attraction,
-       .meaning = "D0: the attraction falls linearly to zero at this gap."},
 
       {.name = "step.fraction",
        .field = in<&S::step, &StepScene::fraction>,
@@ -167,7 +63,7 @@ std::vector<SceneKey> make_table() {
 
       {.name = "finish.method",
        .field = in<&S::finish, &FinishScene::method>,
-       .choices = {"none", "drag", "newton"},
+       .choices = names(kFinishNames),
        .meaning = "What ends a stage faster than the bare law: none is the paper's pure law, drag a global viscous "
                   "drag at the end, newton static solves under the same law down to rounding (docs/equilibrium.md). "
                   "The state records which one acted."},
@@ -251,12 +147,12 @@ std::vector<SceneKey> make_table() {
        .meaning = "Length of the change of K_N; the stage does not end before."},
       {.name = "stage.stiffening_keeps",
        .field = in<&S::stages, &StageScene::stiffening_keeps>,
-       .choices = {"forces", "elongations"},
+       .choices = names(kSpringsNames),
        .meaning = "What the springs of friction and rolling keep while their stiffness changes: their forces and "
                   "moments, or their elongations, so that forces grow with K_T and K_r up to their limits."},
       {.name = "stage.until",
        .field = in<&S::stages, &StageScene::until>,
-       .choices = {"equilibrium", "aggregated", "time", "strain", "failure"},
+       .choices = names(kUntilNames),
        .meaning =
            "What ends the stage: equilibrium; aggregated, i.e. equilibrium of a single cluster; a time; the strain of "
            "a driven direction; failure, when the stress of a driven direction has lost the part stage.drop of the "
@@ -306,23 +202,22 @@ std::vector<SceneKey> make_table() {
        .field = in<&S::output, &OutputScene::snapshot_solid_fractions>,
        .range = {0, kInfinity, true, false},
        .meaning = "Solid fractions at which a copy of the state is kept."},
-
-      {.name = "units.a",
-       .field = in<&S::units, &UnitsScene::length>,
-       .unit = "m",
-       .range = positive,
-       .meaning = "Unit of length a."},
-      {.name = "units.density",
-       .field = in<&S::units, &UnitsScene::density>,
-       .unit = "kg/m^2",
-       .range = positive,
-       .meaning = "Mass of the disks over their area; m = density pi a^2 / 4."},
-      {.name = "units.F0",
-       .field = in<&S::units, &UnitsScene::force>,
-       .unit = "N",
-       .range = positive,
-       .meaning = "Unit of force F0 (without cohesion: a P)."},
   };
+}
+
+// The order of tables in documentation and echo.
+constexpr std::array<std::string_view, 10> kTables{"",       "grains", "law",    "step", "cell", "equilibrium",
+                                                   "finish", "stage",  "output", "units"};
+std::ptrdiff_t place(const SceneKey& key) {
+  return std::find(kTables.begin(), kTables.end(), table_of(key)) - kTables.begin();
+}
+
+std::vector<SceneKey> make_table() {
+  std::vector<SceneKey> table = common_keys();
+  for (SceneKey& key : system_keys()) table.push_back(std::move(key));
+  std::stable_sort(table.begin(), table.end(),
+                   [](const SceneKey& a, const SceneKey& b) { return place(a) < place(b); });
+  return table;
 }
 
 }  // namespace

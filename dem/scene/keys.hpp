@@ -1,5 +1,6 @@
 // The one table of scene keys: parsing, checking, --set, documentation and the resolved echo all follow from it. To add
-// a key: a field with a default in dem/scene/scene.hpp, and one row in dem/scene/keys.cpp.
+// a key: a field with a default in dem/scene/scene.hpp, and one row in dem/scene/keys.cpp; for a key of one system the
+// same in its folder.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +17,7 @@ namespace isostat {
 
 // Where the value of a key lives in a scene; the alternative is the type of the key.
 using SceneField = std::variant<bool*, int*, std::uint64_t*, double*, std::optional<double>*, std::string*,
-                                std::vector<double>*, Finish*>;
+                                std::vector<double>*, Finish*, Until*, Springs*>;
 
 struct SceneRange {
   double low = -std::numeric_limits<double>::infinity();
@@ -43,6 +44,7 @@ struct SceneKey {
   std::string_view meaning;                              // one sentence
 };
 
+std::vector<SceneKey> system_keys();        // the rows of all systems (dem/systems.cpp)
 const std::vector<SceneKey>& scene_keys();  // in the order of documentation and echo
 bool belongs_to_stage(const SceneKey& key);
 bool belongs_to_units(const SceneKey& key);

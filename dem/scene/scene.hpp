@@ -8,34 +8,12 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "dem/disks/scene.hpp"
+
 namespace isostat {
-
-// [grains]: N disks, diameters uniform in [diameter_min, diameter_max], in random non-overlapping positions
-// (the I-state of Gilabert 2007, Sec. III.A).
-struct GrainsScene {
-  int count = 1400;
-  double solid_fraction = 0.36;  // [-] Phi_I, with sum of pi d^2 / 4 over the cell's area
-  double diameter_min = 0.5;     // [a]
-  double diameter_max = 1.0;     // [a]
-  std::string file;              // a state or .net file to start from instead; empty: random
-  friend bool operator==(const GrainsScene&, const GrainsScene&) = default;
-};
-
-// [law]: the interaction law, Gilabert 2007, Eqs. 4-10 and Table I.
-struct LawScene {
-  double normal_stiffness = 1e5;               // K_N [F0/a]
-  std::optional<double> tangential_stiffness;  // K_T [F0/a], default K_N
-  double damping = 0.8;                        // zeta [-], fraction of the critical damping of the pair (Eq. 6)
-  double friction = 0.5;                       // mu [-]
-  bool rolling = true;                         // rolling resistance on
-  std::optional<double> rolling_friction;      // mu_r [a], default 0.01 mu a
-  std::optional<double> rolling_stiffness;     // K_r [F0 a], default 1e-4 a^2 K_N
-  double attraction = 1.0;                     // F0 [F0]; 0: no cohesion
-  double attraction_range = 1e-3;              // D0 [a]
-  friend bool operator==(const LawScene&, const LawScene&) = default;
-};
 
 // [step]: dt = fraction * sqrt(m_max / K_N).
 struct StepScene {
@@ -59,7 +37,19 @@ struct EquilibriumScene {
   friend bool operator==(const EquilibriumScene&, const EquilibriumScene&) = default;
 };
 
+// Choices of a key are enumerators, in the order of their names.
 enum class Finish { none, drag, newton };
+inline constexpr std::array<std::string_view, 3> kFinishNames{"none", "drag", "newton"};
+
+// What ends a stage.
+enum class Until { equilibrium, aggregated, time, strain, failure };
+inline constexpr std::array<std::string_view, 5> kUntilNames{"equilibrium", "aggregated", "time", "strain", "failure"};
+constexpr std::string_view name(Until until) { return kUntilNames[static_cast<std::size_t>(until)]; }
+constexpr bool waits_for_equilibrium(Until until) { return until == Until::equilibrium || until == Until::aggregated; }
+
+// What the springs of friction and rolling keep when their stiffness changes: T and M, or T/K_T and M/K_r.
+enum class Springs { keep_forces, keep_elongations };
+inline constexpr std::array<std::string_view, 2> kSpringsNames{"forces", "elongations"};
 
 // [finish]: what ends a stage faster than the bare law does; "none" is the paper.
 struct FinishScene {
@@ -78,16 +68,18 @@ struct StageScene {
   std::vector<double> pressures;                       // [F0/a] the stage once for each; empty in a resolved scene
   std::optional<double> stress_1, stress_2;            // [F0/a] of one direction, compression positive
   std::optional<double> strain_rate_1, strain_rate_2;  // [1/T0] of one direction, compression positive
-  double velocity = 0.0;                    // V0 [V* = sqrt(F0 D0 / m)] rms velocity drawn at the start; 0: keep
-  double max_strain_rate = 0.05;            // [1/T0] cap of the cell's strain rate; 0: no cap
-  std::optional<double> normal_stiffness;   // K_N [F0/a] that the contacts are brought to; absent: it stays
-  double stiffening_time = 200.0;           // [T0] of the exponential change of K_N
-  std::string stiffening_keeps = "forces";  // of the springs: "forces" or "elongations"
-  std::string until = "equilibrium";        // "aggregated", "time", "strain", "failure"
-  double time = 0.0;                        // [T0] length of the stage with until = "time"
-  double strain = 0.0;                      // [-] |1 - L/L0| of a driven direction that ends the stage
-  double drop = 0.5;                        // [-] part of the peak stress whose loss is failure
-  double max_time = 20000.0;                // [T0] give up (exit code 3) after so long
+  double velocity = 0.0;                   // V0 [V* = sqrt(F0 D0 / m)] rms velocity drawn at the start; 0: keep
+  double max_strain_rate = 0.05;           // [1/T0] cap of the cell's strain rate; 0: no cap
+  std::optional<double> normal_stiffness;  // K_N [F0/a] that the contacts are brought to; absent: it stays
+  double stiffening_time = 200.0;          // [T0] of the exponential change of K_N
+  Springs stiffening_keeps = Springs::keep_forces;
+  Until until = Until::equilibrium;
+  double time = 0.0;          // [T0] length of the stage with until = "time"
+  double strain = 0.0;        // [-] |1 - L/L0| of a driven direction that ends the stage
+  double drop = 0.5;          // [-] part of the peak stress whose loss is failure
+  double max_time = 20000.0;  // [T0] give up (exit code 3) after so long
+  // Strain rates other than 0: of a driven cell.
+  bool driven(int direction) const { return (direction == 0 ? strain_rate_1 : strain_rate_2).value_or(0) != 0; }
   friend bool operator==(const StageScene&, const StageScene&) = default;
 };
 
@@ -113,14 +105,6 @@ struct OutputScene {
   friend bool operator==(const OutputScene&, const OutputScene&) = default;
 };
 
-// [units]: maps the reduced run to SI in reports; absent: reduced.
-struct UnitsScene {
-  double length = 1.0;   // a [m]
-  double density = 1.0;  // mass per area of the disks [kg/m^2] (2D)
-  double force = 1.0;    // F0 [N]
-  friend bool operator==(const UnitsScene&, const UnitsScene&) = default;
-};
-
 struct Scene {
   std::uint64_t seed = 1;
   GrainsScene grains;
@@ -134,18 +118,5 @@ struct Scene {
   std::optional<UnitsScene> units;
   friend bool operator==(const Scene&, const Scene&) = default;
 };
-
-// The law with every default filled in: what kernels and analysis use. A zero means the axis is absent.
-struct LawParameters {
-  double normal_stiffness = 0;      // K_N [F0/a]
-  double tangential_stiffness = 0;  // K_T [F0/a]
-  double damping = 0;               // zeta [-]
-  double friction = 0;              // mu [-]
-  double rolling_friction = 0;      // mu_r [a]; 0: no rolling resistance
-  double rolling_stiffness = 0;     // K_r [F0 a]
-  double attraction = 0;            // F0 [F0]; 0: no cohesion
-  double attraction_range = 0;      // D0 [a]; 0 without cohesion
-};
-LawParameters resolve(const LawScene& law);
 
 }  // namespace isostat

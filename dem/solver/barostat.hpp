@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dem/disks/motion.hpp"
+#include "dem/solver/motion_step.hpp"
 #include "dem/state/state.hpp"
 #include "geometry/periodic_cell.hpp"
 

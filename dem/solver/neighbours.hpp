@@ -6,15 +6,22 @@
 // pairs between a chunk and the next, and the rest go to groups of their own; groups of one phase touch disjoint
 // bodies. So threads need no locks, and the order of every sum is the same for any number of threads.
 // Within a group the pairs of a body stand in the order of the list, batches apart if the sample fits into the caches.
+//
+// The lists see positions and radii. What a listed pair carries is a type Columns:
+//   Columns::Bodies    the bodies' store: size(), position(k), radius(k), id[k], place(k, r), reorder(to),
+//                      static pad(n, k) of kPads padding pairs
+//   Columns::History   what a pair keeps from step to step; History{} is none
+//   kStride            kernels name body k by kStride k
+//   resize(n), fill(k, bodies, i, j), history(k), remember(k, history), static turned(history)
 #pragma once
 #include <cstdint>
+#include <optional>
+#include <stdexcept>
 #include <vector>
 
-#include "dem/disks/bodies_store.hpp"
-#include "dem/disks/kernel/pair_force.hpp"
 #include "dem/solver/aligned.hpp"
-#include "dem/state/state.hpp"
-#include "geometry/periodic_cell.hpp"
+#include "dem/state/list_memory.hpp"
+#include "geometry/cell_grid.hpp"
 
 namespace isostat {
 
@@ -25,30 +32,47 @@ constexpr std::uint8_t image_code(const ImageShift<2>& s) {
 constexpr ImageShift<2> image_shift(std::uint8_t code) { return {code % 3 - 1, code / 3 - 1}; }
 inline constexpr std::uint8_t kNoImage = 4;
 
+// Groups begin and end at multiples of kPairBatch, the widest batch of any kernel (two AVX-512 vectors).
+inline constexpr std::size_t kPairBatch = 16;
+
 // Consecutive pairs that one thread runs through: first those inside the cell, then those across its edge.
 struct PairGroup {
   std::size_t begin = 0, images = 0, end = 0;  // multiples of kPairBatch
 };
 
+// The lists cannot be made: the cell has become smaller than an interaction, or a body is lost. What to do about it
+// the caller knows.
+struct ListFailure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+template <class Columns>
 class NeighbourLists {
  public:
-  // range: interaction beyond contact (D0) [a]; damping: zeta; stiffness: K_N [F0/a], for the damping coefficients.
-  NeighbourLists(std::size_t bodies, double range, double damping, double stiffness);
+  using Bodies = typename Columns::Bodies;
+  using History = typename Columns::History;
+  using Pair = PairMemory<History>;
+  using Cell = std::optional<PeriodicCell<2>>;
+
+  // range: interaction beyond contact [a].
+  NeighbourLists(std::size_t bodies, double range, Columns columns);
 
   // Sorts and wraps the bodies, finds the pairs and attaches the given histories; for the start of a run.
-  void build(BodiesStore& bodies, const PeriodicCell<2>& cell, std::vector<PairMemory> histories);
+  void build(Bodies& bodies, const Cell& cell, std::vector<Pair> histories);
 
   // Once a step: pair_displacement [a] bounds how far two neighbours moved relative to each other in it. Rebuilds what
-  // must be rebuilt; throws std::runtime_error if the cell has become smaller than an interaction.
-  void update(BodiesStore& bodies, const PeriodicCell<2>& cell, double pair_displacement) {
+  // must be rebuilt; throws ListFailure.
+  void update(Bodies& bodies, const Cell& cell, double pair_displacement) {
     inner_travel_ += pair_displacement;
     outer_travel_ += pair_displacement;
     if (!(inner_travel_ <= inner_skin_)) rebuild(bodies, cell, pair_displacement);
   }
 
-  void set_stiffness(double stiffness, const BodiesStore& bodies);  // K_N [F0/a], for the damping coefficients
-  void scale_springs(double tangential, double moment);             // T and M of every pair, by these factors
-  PairArrays arrays();
+  Columns& columns() { return columns_; }
+  const Columns& columns() const { return columns_; }
+  const std::uint32_t* i() const { return i_.data(); }  // times Columns::kStride, as the kernels want it
+  const std::uint32_t* j() const { return j_.data(); }
+  const std::uint8_t* shift() const { return shift_.data(); }
   const std::vector<PairGroup>& phase(int p) const { return phases_[p]; }  // 0: chunks, 1-2: between, 3: the rest
   static constexpr int kPhases = 4;
   static int chunk_count(std::size_t bodies);
@@ -59,54 +83,52 @@ class NeighbourLists {
   std::size_t inner_rebuilds() const { return inner_rebuilds_; }
   std::size_t outer_rebuilds() const { return outer_rebuilds_; }
 
-  template <class Visit>  // visit(i, j, shift code, T, M) for every listed pair, in list order
+  template <class Visit>  // visit(place, i, j, shift code) for every listed pair, in list order
   void for_each(Visit&& visit) const {
     for (std::size_t k = 0; k < i_.size(); ++k)
-      if (body_at(i_[k]) < static_cast<std::int32_t>(bodies_))
-        visit(body_at(i_[k]), body_at(j_[k]), shift_[k], tangential_[k], moment_[k]);
+      if (body_at(i_[k]) < static_cast<std::int32_t>(bodies_)) visit(k, body_at(i_[k]), body_at(j_[k]), shift_[k]);
   }
 
-  void remember(SolverMemory& memory) const;
+  void remember(ListMemory& memory, std::vector<Pair>& pairs) const;
   // Lists exactly as they were when `memory` was taken; bodies are in the storage order of that time.
-  void restore(const BodiesStore& bodies, const SolverMemory& memory);
+  void restore(const Bodies& bodies, const ListMemory& memory, const std::vector<Pair>& pairs);
 
  private:
-  struct History {
+  struct Claimable {
     std::int32_t j;
     std::uint8_t shift;
-    double tangential, moment;
+    History history;
   };
-  void rebuild(BodiesStore& bodies, const PeriodicCell<2>& cell, double pair_displacement);
-  void sort_bodies(BodiesStore& bodies, const PeriodicCell<2>& cell, std::vector<PairMemory>& histories);
-  void find_outer(const BodiesStore& bodies);
-  void filter_inner(const BodiesStore& bodies, const std::vector<PairMemory>& histories);
-  std::vector<PairMemory> histories() const;
-  double outer_skin_for(const PeriodicCell<2>& cell) const;
+  void measure(const Bodies& bodies);
+  void rebuild(Bodies& bodies, const Cell& cell, double pair_displacement);
+  void sort_bodies(Bodies& bodies, const Cell& cell, std::vector<Pair>& histories);
+  void find_outer(const Bodies& bodies);
+  void filter_inner(const Bodies& bodies, const std::vector<Pair>& histories);
+  std::vector<Pair> histories() const;
+  CellGrid<2> grid_for(const std::vector<Vec2>& position, double cutoff) const;
+  double outer_skin_for(const Cell& cell) const;
   double inner_skin_for(double pair_displacement) const;
-  double damping_of(const BodyConstants& a, const BodyConstants& b) const;
   std::size_t segment_of(std::int32_t i, std::int32_t j, std::uint8_t shift) const;
   int chunk_of(std::int32_t body) const;
 
-  static std::int32_t body_at(kernel::RowOffset o) { return static_cast<std::int32_t>(o / kernel::kRowWidth); }
-  static kernel::RowOffset row_offset(std::size_t body) {
-    return static_cast<kernel::RowOffset>(body * kernel::kRowWidth);
-  }
+  static std::int32_t body_at(std::uint32_t o) { return static_cast<std::int32_t>(o / Columns::kStride); }
+  static std::uint32_t offset_of(std::size_t body) { return static_cast<std::uint32_t>(body * Columns::kStride); }
 
   std::size_t bodies_;
   int chunks_;
   double smallest_diameter_ = 0, largest_diameter_ = 0, mean_diameter_ = 0;  // [a]
-  double range_, damping_, stiffness_;
+  double range_;
   double outer_skin_ = 0, inner_skin_ = -1, outer_travel_ = 0, inner_travel_ = 0;  // [a]
   std::size_t inner_rebuilds_ = 0, outer_rebuilds_ = 0;
 
   std::vector<Vec2> outer_position_, inner_position_;
-  PeriodicCell<2> outer_cell_, inner_cell_;
+  Cell outer_cell_, inner_cell_;
   std::vector<std::int32_t> outer_i_, outer_j_;
   std::vector<std::uint8_t> outer_shift_;
 
-  AlignedVector<kernel::RowOffset> i_, j_;
+  AlignedVector<std::uint32_t> i_, j_;
   AlignedVector<std::uint8_t> shift_;
-  AlignedVector<double> damping_coefficient_, radius_sum_, tangential_, moment_;
+  Columns columns_;
   std::vector<PairGroup> phases_[kPhases];
 };
 

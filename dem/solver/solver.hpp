@@ -1,16 +1,14 @@
-// The solver: marches a packing in time,  body forces = G^T law(G velocities), matrix-free.
+// The solver: marches a packing in time,  body forces = G^T law(G velocities), matrix-free. The loop, the clock and the
+// cell; what a step does to the bodies is the engine's of the system (dem/disks/engine.hpp).
 #pragma once
 #include <array>
+#include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string_view>
-#include <vector>
 
-#include "dem/disks/bodies_store.hpp"
-#include "dem/disks/kernel/pair_force.hpp"
-#include "dem/disks/motion.hpp"
 #include "dem/solver/barostat.hpp"
-#include "dem/solver/neighbours.hpp"
-#include "dem/solver/team.hpp"
+#include "dem/solver/isa.hpp"
 #include "dem/state/state.hpp"
 
 namespace isostat {
@@ -20,6 +18,8 @@ struct SolverOptions {
   Isa isa = best_isa();
   bool energies = false;  // keep the energy ledger (a dearer kernel)
 };
+
+enum class Stage { motion, neighbours, forces, stress };
 
 // Where the wall time of the step loop went, sampled [s].
 struct StepTimes {
@@ -31,15 +31,29 @@ struct StepTimes {
   }
 };
 
-// What the springs of friction and rolling keep when their stiffness changes: T and M, or T/K_T and M/K_r.
-enum class Springs { keep_forces, keep_elongations };
+// Sums over the bodies and links of one instant, from which the stress follows [F0 a].
+struct StressSums {
+  double kinetic[2] = {0, 0};  // sum of m v_a^2
+  double virial[2] = {0, 0};   // sum of F_a r_a, repulsion positive
+};
 
+// How far the bodies went in a step.
+struct Advance {
+  double displacement = 0;  // [a] bound on the relative displacement of two neighbours
+  bool violent = false;     // further than a sane run goes
+};
+
+template <class System>
 class Solver {
  public:
+  using Engine = typename System::Engine;
+  using Law = typename System::Law;
+
   // From a state: with its memory the run goes on bit for bit; without (a new or foreign packing) lists and half-step
   // velocities are made from the packing, and spring histories from its links.
-  // Throws InputError if the law is not among the supported compositions, RunError if the cell is too small.
-  Solver(const State& state, const CellControl& control, SolverOptions options = {});
+  // Throws InputError if the law is not among the supported compositions or a cell that is not there is to move,
+  // RunError if the cell is too small.
+  Solver(const State<System>& state, const CellControl& control, SolverOptions options = {});
 
   void run(std::int64_t steps) {
     for (std::int64_t k = 0; k < steps; ++k) step();
@@ -48,52 +62,56 @@ class Solver {
 
   void set_drag(double rate) { drag_ = rate; }  // [1/T0] global drag -rate m v, -rate I w; 0: none
   // Other stiffnesses; the composition may not change.
-  void set_law(const LawParameters& law, Springs springs = Springs::keep_forces);
+  void set_law(const Law& law, Springs springs = Springs::keep_forces) { engine_.set_law(law, springs); }
   double time() const { return time_; }
   std::int64_t steps() const { return step_; }
-  const PeriodicCell<2>& cell() const { return cell_; }
+  const std::optional<PeriodicCell<2>>& cell() const { return cell_; }
   const CellMotion& cell_motion() const { return cell_motion_; }
   StepTimes times() const { return times_; }
-  const NeighbourLists& lists() const { return lists_; }
+  const Engine& engine() const { return engine_; }
 
   // The instant as data: packing with full-step velocities and links, and the memory for a restart. Reads only.
-  void snapshot(State& state) const;
+  void snapshot(State<System>& state) const;
   // Throws RunError if a position or velocity is not finite or grains overlap absurdly.
   void check_sanity() const;
 
  private:
-  double advance_bodies();  // returns the bound on the relative displacement of two neighbours [a]
-  void compute_forces(double time_step);
-  void measure_stress();
-  void load_bodies(const State& state);
-  void update_lists(double displacement);
-  void brake_ledger(const MotionStep& step);
-  void work_ledger();
-  void set_work_due();
-  double viscous_power() const;
-  double elastic_energy() const;
+  // Adds the time since the last mark to a stage, on the steps that are timed.
+  class StageClock {
+   public:
+    StageClock(StepTimes& times, bool on) : times_(times), on_(on) {
+      if (on_) last_ = Clock::now();
+    }
+    void mark(Stage stage) {
+      if (!on_) return;
+      const auto now = Clock::now();
+      times_.seconds[static_cast<std::size_t>(stage)] +=
+          std::chrono::duration<double>(now - last_).count() * static_cast<double>(kTimedEvery);
+      last_ = now;
+    }
 
-  LawParameters law_;
+   private:
+    using Clock = std::chrono::steady_clock;
+    StepTimes& times_;
+    bool on_;
+    Clock::time_point last_;
+  };
+  // Reading the clock at every stage of every step would cost a few per cent.
+  static constexpr std::int64_t kTimedEvery = 64;
+
+  MotionStep move_cell();
+  double advance();
+  void update_lists(double displacement);
+  void measure_stress();
+  void check_cell() const;
+
   CellControl control_;
   double dt_ = 0, drag_ = 0, time_ = 0;
   std::int64_t step_ = 0;
-  PeriodicCell<2> cell_;
+  std::optional<PeriodicCell<2>> cell_;
   CellMotion cell_motion_;
   CellFlow flow_;
-  EnergyLedger ledger_;
-
-  bool energies_, rotates_;
-  PairForceKernel force_kernel_;
-  MotionKernel motion_kernel_;
-  Team team_;
-  BodiesStore bodies_;
-  NeighbourLists lists_;
-  std::vector<MotionTally> motion_tallies_;    // by chunk
-  std::vector<PairForceTally> force_tallies_;  // by group of a phase
-  MotionTally motion_tally_;
-  PairForceTally force_tally_;
-  double smallest_diameter_ = 0, largest_diameter_ = 0, smallest_mass_ = 0;  // [a], [m]
-  double prediction_ = 0.5;                                                  // [dt]
+  Engine engine_;
   StepTimes times_;
 };
 

@@ -14,12 +14,12 @@ std::uint64_t mixed(std::uint64_t x) {
 
 }  // namespace
 
-std::uint64_t contact_set(const State& s) {
+std::uint64_t contact_set(const Packing<2>& packing) {
   std::uint64_t sum = 0;
-  for (const Link<2>& l : s.packing.links) {
+  for (const Link<2>& l : packing.links) {
     if (!is_contact(l.kind)) continue;
-    const auto a = static_cast<std::uint64_t>(s.packing.bodies.id[static_cast<std::size_t>(l.i)]);
-    const auto b = static_cast<std::uint64_t>(s.packing.bodies.id[static_cast<std::size_t>(l.j)]);
+    const auto a = static_cast<std::uint64_t>(packing.bodies.id[static_cast<std::size_t>(l.i)]);
+    const auto b = static_cast<std::uint64_t>(packing.bodies.id[static_cast<std::size_t>(l.j)]);
     sum += mixed(mixed(std::min(a, b) + 1) + std::max(a, b));
   }
   return sum;

@@ -3,10 +3,10 @@
 #pragma once
 #include <cstdint>
 
-#include "dem/state/state.hpp"
+#include "dem/state/packing.hpp"
 
 namespace isostat {
 
-std::uint64_t contact_set(const State& state);
+std::uint64_t contact_set(const Packing<2>& packing);
 
 }  // namespace isostat

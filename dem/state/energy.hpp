@@ -15,6 +15,5 @@ struct Energies {       // all [F0 a]
            ledger.cell_work - ledger.injected;
   }
 };
-Energies energies(const State& state);
 
 }  // namespace isostat

@@ -1,4 +1,4 @@
-// Everything a run is at one instant: the packing, and what the solver needs to go on bit for bit.
+// Everything a run is at one instant: the packing, and what the solver needs to go on bit for bit. Knows no system.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -12,32 +12,9 @@ namespace isostat {
 
 // The cell's degrees of freedom (Gilabert 2007, Eq. 3).
 struct CellMotion {
-  Vec2 reference_length{};  // [a] L0: the cell at the start of the stage; strain rate = -Ldot / L0
+  Vec2 reference_length{};  // [a] L0: the cell at the start of the stage; strain rate = -Ldot / L0; 0 without cell
   Vec2 strain_rate{};       // [1/T0] at the last half step, compression positive
   Vec2 stress{};            // [F0/a] measured sigma_11, sigma_22 at `time`, kinetic and viscous parts included
-};
-
-// Spring histories of one listed pair; zero for pairs out of contact.
-struct PairMemory {
-  std::int32_t i = 0, j = 0;
-  ImageShift<2> shift{};
-  double tangential_force = 0;  // [F0] T
-  double moment = 0;            // [F0 a] M
-};
-
-// What a restart needs beside the packing: leapfrog half-step velocities, the total forces at `time`, the positions
-// at which the two nested neighbour lists were built, and how much of their skins is used up. Empty for packings that
-// no solver has touched.
-struct SolverMemory {
-  std::vector<Vec2> half_velocity;                   // [a/T0] at time - dt/2
-  std::vector<double> half_spin;                     // [1/T0]
-  std::vector<Vec2> force;                           // [F0] total, viscous part included
-  std::vector<double> torque;                        // [F0 a]
-  std::vector<PairMemory> pairs;                     // pairs with history, any order
-  std::vector<Vec2> outer_position, inner_position;  // [a] at the last rebuild of each list
-  Vec2 outer_length{}, inner_length{};               // [a] cell edges then
-  double outer_skin = 0, inner_skin = 0;             // [a]
-  double outer_travel = 0, inner_travel = 0;         // [a] part of the skin that motion may have used since
 };
 
 // Energy taken out of, or put into, the bodies since the start of the run; kept only when the scene asks for energies.
@@ -64,15 +41,17 @@ struct StageProgress {
   bool drifting = false;          // static solves have silenced the vibrations, but not what floppy modes still do
 };
 
+// A system is a type with four members, Packing, Law, Memory and Engine, in a folder of its own (dem/systems.hpp).
+template <class System>
 struct State {
-  Packing<2> packing;  // positions, velocities and spins at `time`
-  LawParameters law;
+  typename System::Packing packing;  // positions, velocities and spins at `time`
+  typename System::Law law;
   double time = 0;  // [T0]
   std::int64_t step = 0;
   double time_step = 0;  // dt [T0]
   CellMotion cell_motion;
-  ImposedStress imposed_stress;  // of the current or last stage
-  SolverMemory memory;
+  ImposedStress imposed_stress;    // of the current or last stage
+  typename System::Memory memory;  // empty: no solver has touched the packing
   StageProgress progress;
   EnergyLedger ledger;
   Certificate certificate;

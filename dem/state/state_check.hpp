@@ -1,7 +1,10 @@
 // What every stored State obeys: array sizes, finite numbers, indices in range.
 #pragma once
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "dem/state/state.hpp"
 
@@ -12,9 +15,64 @@ struct StateFault {
   std::string rule;
 };
 
+// What the checks of a system's own parts are written with.
+namespace state_check {
+
+inline bool finite(double x) { return std::isfinite(x); }
+template <int D>
+bool finite(const Vec<D>& v) {
+  return std::all_of(v.c.begin(), v.c.end(), [](double x) { return std::isfinite(x); });
+}
+
+// Every element finite, and positive where asked.
+template <class T>
+std::optional<StateFault> check_values(const std::vector<T>& values, const char* field, bool positive = false) {
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (!finite(values[k])) return StateFault{field, "element " + std::to_string(k) + " is not a finite number"};
+    if constexpr (std::is_same_v<T, double>)
+      if (positive && !(values[k] > 0)) return StateFault{field, "element " + std::to_string(k) + " is not positive"};
+  }
+  return std::nullopt;
+}
+
+template <class Pair>
+bool names_two_bodies(const Pair& pair, std::size_t n) {
+  const auto in = [n](std::int32_t k) { return k >= 0 && static_cast<std::size_t>(k) < n; };
+  return in(pair.i) && in(pair.j) && (pair.i != pair.j || pair.shift != decltype(pair.shift){});
+}
+
+}  // namespace state_check
+
 // The first broken rule, if any.
 template <int D>
 std::optional<StateFault> packing_fault(const Packing<D>& packing);
-std::optional<StateFault> state_fault(const State& state);
+
+// Of the numbers that all systems have.
+template <class System>
+std::optional<StateFault> run_fault(const State<System>& s) {
+  using state_check::finite;
+  if (!finite(s.time) || !finite(s.time_step) || s.time_step < 0 || s.step < 0)
+    return StateFault{"run", "a time or step that is negative or not a finite number"};
+  for (const auto& stress : s.imposed_stress)
+    if (stress && !finite(*stress)) return StateFault{"run", "an imposed stress that is not a finite number"};
+  if (!finite(s.cell_motion.reference_length) || !finite(s.cell_motion.strain_rate) || !finite(s.cell_motion.stress))
+    return StateFault{"cell", "a number that is not finite"};
+  if (s.progress.stage < 0 || static_cast<std::size_t>(s.progress.stage) > s.scene.stages.size())
+    return StateFault{"progress", "stage is not one of the scene's"};
+  if (!finite(s.progress.start_time) || !finite(s.progress.quiet_since) || !finite(s.progress.unchanged_since) ||
+      !finite(s.progress.start_stiffness) || !finite(s.progress.start_stress) || !finite(s.progress.peak_stress))
+    return StateFault{"progress", "a number that is not finite"};
+  return std::nullopt;
+}
+
+// The system says what holds for its memory and law (dem/disks/state_check.hpp).
+template <class System>
+std::optional<StateFault> state_fault(const State<System>& state) {
+  if (auto f = packing_fault(state.packing)) return f;
+  if (!state.packing.beams.empty()) return StateFault{"links", "beams between disks are kept by .net files only"};
+  if (auto f = memory_fault(state.memory, state.packing.bodies.size())) return f;
+  if (auto f = law_fault(state.law)) return f;
+  return run_fault(state);
+}
 
 }  // namespace isostat

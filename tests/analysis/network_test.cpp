@@ -33,8 +33,8 @@ AnalysisInput foreign(Packing<2> packing) {
   return input;
 }
 
-LawParameters law_of(double attraction) {
-  LawParameters law;
+DiskLaw law_of(double attraction) {
+  DiskLaw law;
   law.normal_stiffness = law.tangential_stiffness = 1e5;
   law.friction = 0.5;
   law.attraction = attraction;
@@ -42,7 +42,7 @@ LawParameters law_of(double attraction) {
   return law;
 }
 
-AnalysisInput state_input(Packing<2> packing, const LawParameters& law, std::optional<double> pressure) {
+AnalysisInput state_input(Packing<2> packing, const DiskLaw& law, std::optional<double> pressure) {
   AnalysisInput input = foreign(std::move(packing));
   input.state.law = law;
   input.state.imposed_stress = isotropic(pressure);

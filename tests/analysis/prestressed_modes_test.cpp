@@ -18,8 +18,8 @@ namespace {
 
 using Complexes = std::vector<std::complex<double>>;
 
-LawParameters soft_law() {
-  LawParameters law = default_network_law();
+DiskLaw soft_law() {
+  DiskLaw law = default_network_law();
   law.normal_stiffness = 20, law.tangential_stiffness = 12, law.rolling_stiffness = 0.7;
   return law;
 }
@@ -38,7 +38,7 @@ Packing<2> loaded(std::uint64_t seed, int size, double z, double normal, double 
 }
 
 // Moves one dof of one body: forces follow the law of their rows, in the frame that has turned.
-Packing<2> moved(const Packing<2>& p, NetworkLaw network_law, const LawParameters& law, std::size_t body, int dof,
+Packing<2> moved(const Packing<2>& p, NetworkLaw network_law, const DiskLaw& law, std::size_t body, int dof,
                  double by) {
   Packing<2> q = p;
   if (dof < 2) q.bodies.position[body][static_cast<std::size_t>(dof)] += by;
@@ -80,7 +80,7 @@ Complexes dense_spectrum(Eigen::MatrixXd t, const std::vector<double>& mass, std
 }
 
 TEST(TangentStiffness, EqualsFiniteDifferencesOfTheNetLoads) {
-  const LawParameters law = soft_law();
+  const DiskLaw law = soft_law();
   for (const NetworkLaw network_law : {NetworkLaw::friction, NetworkLaw::rolling})
     for (std::uint64_t seed = 1; seed < 4; ++seed) {
       const Packing<2> p = loaded(seed, 4, 4.0, 3, 2);
@@ -102,7 +102,7 @@ TEST(TangentStiffness, EqualsFiniteDifferencesOfTheNetLoads) {
 
 // Dense pieces and Arnoldi on large ones, weak prestress (real omega^2) and strong tangential forces (complex).
 TEST(PrestressedModes, EqualTheDenseSpectrum) {
-  const LawParameters law = soft_law();
+  const DiskLaw law = soft_law();
   bool complex_seen = false, arnoldi_seen = false, dense_seen = false;
   for (const int size : {6, 10})
     for (const double tangential : {0.2, 6.0})
@@ -132,7 +132,7 @@ TEST(PrestressedModes, EqualTheDenseSpectrum) {
 }
 
 TEST(PrestressedModes, WithoutForcesTheyAreTheSymmetricOnes) {
-  const LawParameters law = soft_law();
+  const DiskLaw law = soft_law();
   for (const int size : {5, 12}) {
     const Packing<2> p = loaded(3, size, 5.5, 0, 0);
     const VibrationModes symmetric = vibration_modes(p, NetworkLaw::rolling, law, 8, false);

@@ -60,7 +60,7 @@ TEST(IndependentColumns, AreIndependentAndComplete) {
 
 TEST(StiffnessMatrix, EqualsDenseProduct) {
   const Packing<2> p = network(2);
-  const LawParameters law = default_network_law();
+  const DiskLaw law = default_network_law();
   const RigidityMatrix g = rigidity_matrix(p, NetworkLaw::rolling, true);
   const auto k = row_stiffness(p, g, law);
   const SymmetricMatrix a = weighted_normal_matrix(g, k);
@@ -107,7 +107,7 @@ TEST(LowestModes, LanczosEqualsDense) {
 // shear): each contact slides by gamma d / 2, energy K_T (gamma d / 2)^2 / 2 times two contacts a disk: C33 = K_T / 2.
 TEST(Moduli, SquareLattice) {
   const Packing<2> p = cluster("periodic_square3x3");
-  LawParameters law = default_network_law();
+  DiskLaw law = default_network_law();
   law.normal_stiffness = 7, law.tangential_stiffness = 3;
   const Moduli c = elastic_moduli(p, NetworkLaw::friction, law);
   const double expected[3][3] = {{7, 0, 0}, {0, 7, 0}, {0, 0, 1.5}};
@@ -123,7 +123,7 @@ TEST(Moduli, SquareLattice) {
 // sqrt(3)/2 d^2: C11 = (sqrt(3)/4)(3 K_N + K_T), C12 = (sqrt(3)/4)(K_N - K_T), C33 = (sqrt(3)/4)(K_N + K_T).
 TEST(Moduli, TriangularLattice) {
   const Packing<2> p = cluster("periodic_triangular4");
-  LawParameters law = default_network_law();
+  DiskLaw law = default_network_law();
   law.normal_stiffness = 5, law.tangential_stiffness = 2;
   const Moduli c = elastic_moduli(p, NetworkLaw::friction, law);
   const double q = std::sqrt(3.0) / 4;
@@ -142,7 +142,7 @@ TEST(Moduli, TangentWithoutForcesIsTheSymmetricOne) {
   for (std::uint64_t seed : {2u, 6u, 8u}) {
     const Packing<2> p = network(seed, 5.0);
     ASSERT_EQ(exact_rank(p, NetworkLaw::rolling, false).mechanisms, 0);
-    const LawParameters law = default_network_law();
+    const DiskLaw law = default_network_law();
     const Moduli symmetric = elastic_moduli(p, NetworkLaw::rolling, law);
     const TangentModuli tangent = tangent_moduli(p, NetworkLaw::rolling, law);
     for (std::size_t a = 0; a < 3; ++a)
@@ -154,7 +154,7 @@ TEST(Moduli, TangentWithoutForcesIsTheSymmetricOne) {
 // Two disks bound by one contact: omega^2 = K_N / reduced mass along the normal; sliding turns both disks.
 TEST(Vibration, PairOfDisks) {
   const Packing<2> p = cluster("pair");
-  LawParameters law = default_network_law();
+  DiskLaw law = default_network_law();
   law.normal_stiffness = 3, law.tangential_stiffness = 2;
   const VibrationModes modes = vibration_modes(p, NetworkLaw::friction, law, 5, true);
   EXPECT_EQ(modes.zero_modes, 4);

@@ -19,8 +19,8 @@ using InfoCommand = Program;
 using AnyCommand = Program;
 
 // Two disks of diameters 1 and 1/2 in a cell.
-State two_disks() {
-  State s;
+State<Disks> two_disks() {
+  State<Disks> s;
   s.packing.cell = PeriodicCell<2>{{{4, 5}}};
   s.packing.bodies.resize(2);
   s.packing.bodies.id = {1, 2};
@@ -37,7 +37,7 @@ State two_disks() {
 }
 
 TEST_F(InfoCommand, PrintsTheContract) {
-  const State state = two_disks();
+  const State<Disks> state = two_disks();
   write_state(state, in_folder("state.h5"), {"9.9", "", "pack scene.toml"});
   const Outcome o = run("info " + in_folder("state.h5"));
   ASSERT_EQ(o.code, 0) << o.err;
@@ -71,7 +71,7 @@ TEST_F(InfoCommand, PrintsTheContract) {
 }
 
 TEST_F(InfoCommand, GivesSiWithUnitsAndNullWithoutCohesion) {
-  State state = two_disks();
+  State<Disks> state = two_disks();
   state.scene.units = UnitsScene{1e-5, 1e-2, 1e-8};  // m = density pi a^2/4, T0 = sqrt(m a / F0)
   write_state(state, in_folder("state.h5"));
   const json si = json::parse(run("info " + in_folder("state.h5")).out)["si"];

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "dem/disks/physical_hash.hpp"
 #include "dem/files/state_file.hpp"
-#include "dem/state/physical_hash.hpp"
 #include "tests/apps/program.hpp"
 
 namespace isostat {
@@ -58,7 +58,7 @@ TEST_F(Pack, RunsTheStagesAndWritesOneState) {
   EXPECT_EQ(o.out, "");
   EXPECT_THAT(o.err, HasSubstr("kappa 1e+04"));
   EXPECT_FALSE(exists("state.h5.partial"));
-  const State s = read_state(in_folder("state.h5"));
+  const State<Disks> s = read_state<Disks>(in_folder("state.h5"));
   EXPECT_EQ(s.packing.bodies.size(), 60u);
   EXPECT_NEAR(s.time, 5, 2 * s.time_step);
   EXPECT_EQ(s.seed, 3u);
@@ -77,9 +77,9 @@ TEST_F(Pack, SeedSetAndThreads) {
   EXPECT_EQ(content(in_folder("a.h5")), content(in_folder("b.h5"))) << "same scene, same bytes";
   ASSERT_EQ(run(pack("c.h5", "--seed 4")).code, 0);
   EXPECT_NE(hash("c.h5"), hash("a.h5"));
-  EXPECT_EQ(read_state(in_folder("c.h5")).seed, 4u);
+  EXPECT_EQ(read_state<Disks>(in_folder("c.h5")).seed, 4u);
   ASSERT_EQ(run(pack("d.h5", "--set law.friction=0.1 --set stage.1.time=1 --set law.rolling=false")).code, 0);
-  const State d = read_state(in_folder("d.h5"));
+  const State<Disks> d = read_state<Disks>(in_folder("d.h5"));
   EXPECT_EQ(d.law.friction, 0.1);
   EXPECT_EQ(d.law.rolling_friction, 0);
   EXPECT_NEAR(d.time, 3, 2 * d.time_step);
@@ -98,7 +98,7 @@ TEST_F(Pack, MaxTimeAndMissedEndsExitWithThreeAndKeepTheState) {
   const Outcome o = run(pack("state.h5", "--max-time 3"));
   EXPECT_EQ(o.code, 3);
   EXPECT_THAT(o.err, HasSubstr("--max-time"));
-  EXPECT_NEAR(read_state(in_folder("state.h5")).time, 3, 0.6);
+  EXPECT_NEAR(read_state<Disks>(in_folder("state.h5")).time, 3, 0.6);
   const Outcome e =
       run(pack("other.h5", "--set stage.1.until='\"equilibrium\"' --set stage.1.time=0 --set stage.1.max_time=1"));
   EXPECT_EQ(e.code, 3);
@@ -124,7 +124,7 @@ TEST_F(Pack, SeriesAndSnapshotsOnlyWatch) {
     EXPECT_EQ(std::count(rows[k].begin(), rows[k].end(), ','), columns);
     EXPECT_NEAR(std::stod(rows[k]), 0.25 * static_cast<double>(k), 0.01);
   }
-  EXPECT_NEAR(read_state(in_folder("seen.snapshot0001.h5")).time, 1, 0.01);
+  EXPECT_NEAR(read_state<Disks>(in_folder("seen.snapshot0001.h5")).time, 1, 0.01);
   EXPECT_TRUE(exists("seen.snapshot0003.h5"));
   EXPECT_FALSE(exists("seen.snapshot0004.h5"));
 }
@@ -146,7 +146,7 @@ TEST_F(Pack, InterruptedRunsResumeToTheSameBits) {
     EXPECT_THAT(content(in_folder("stderr")), HasSubstr("--resume"));
     ASSERT_TRUE(exists("cut.h5.partial"));
     EXPECT_EQ(content(in_folder("cut.h5")), "an older result") << "replaced only when the new one is complete";
-    EXPECT_LT(read_state(in_folder("cut.h5.partial")).time, 200);
+    EXPECT_LT(read_state<Disks>(in_folder("cut.h5.partial")).time, 200);
   }
 
   const Outcome other = run(pack("cut.h5", "--resume"));
@@ -159,7 +159,7 @@ TEST_F(Pack, InterruptedRunsResumeToTheSameBits) {
   EXPECT_FALSE(exists("cut.h5.partial"));
   EXPECT_EQ(hash("cut.h5"), hash("straight.h5"));
   EXPECT_EQ(content(in_folder("series.csv")), straight_series);
-  EXPECT_NEAR(read_state(in_folder("cut.snapshot0002.h5")).time, 150, 0.1);
+  EXPECT_NEAR(read_state<Disks>(in_folder("cut.snapshot0002.h5")).time, 150, 0.1);
   EXPECT_FALSE(exists("cut.snapshot0003.h5"));
 
   const std::string finished = content(in_folder("cut.h5"));

@@ -166,7 +166,7 @@ output.series = "on"
     ::waitpid(child, &status, 0);
     if (signal == SIGKILL) {  // the runs see that they are alone, and stop by themselves
       EXPECT_TRUE(WIFSIGNALED(status));
-      for (int k = 0; k < 1000 && read_state(partial).time <= reached; ++k)
+      for (int k = 0; k < 1000 && read_state<Disks>(partial).time <= reached; ++k)
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     } else {
       ASSERT_TRUE(WIFEXITED(status));
@@ -175,8 +175,8 @@ output.series = "on"
       EXPECT_THAT(text("cut/runs.csv"), HasSubstr("pending"));
     }
     ASSERT_TRUE(fs::exists(partial));
-    EXPECT_GT(read_state(partial).time, reached);
-    reached = read_state(partial).time;
+    EXPECT_GT(read_state<Disks>(partial).time, reached);
+    reached = read_state<Disks>(partial).time;
     EXPECT_FALSE(exists("cut/scene.0001.h5"));
   }
   Outcome last{2, "", ""};

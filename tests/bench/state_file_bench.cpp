@@ -5,21 +5,21 @@
 #include <filesystem>
 #include <random>
 
+#include "dem/disks/physical_hash.hpp"
 #include "dem/files/state_file.hpp"
-#include "dem/state/physical_hash.hpp"
 
 namespace {
 
 using namespace isostat;
 
-State random_state(std::size_t n) {
+State<Disks> random_state(std::size_t n) {
   std::mt19937_64 engine(1);
   std::uniform_real_distribution<> real(0, 1);
   const auto vec = [&] {
     const double x = real(engine);
     return Vec2{{x, real(engine)}};
   };
-  State s;
+  State<Disks> s;
   s.packing.cell = PeriodicCell<2>{{{1, 1}}};
   Bodies<2>& b = s.packing.bodies;
   b.resize(n);
@@ -29,9 +29,10 @@ State random_state(std::size_t n) {
     const auto i = static_cast<std::int32_t>(k), j = static_cast<std::int32_t>((k + 1) % n);
     for (int copy = 0; copy < 2; ++copy)
       s.packing.links.push_back({i, j, {copy, 0}, LinkKind::closed, -1, real(engine), real(engine), real(engine), 0});
-    s.memory.pairs.push_back({i, j, {}, real(engine), 0});
+    s.memory.pairs.push_back({i, j, {}, {real(engine), 0}});
   }
-  for (auto* v : {&s.memory.half_velocity, &s.memory.force, &s.memory.outer_position, &s.memory.inner_position})
+  for (auto* v :
+       {&s.memory.half_velocity, &s.memory.force, &s.memory.lists.outer_position, &s.memory.lists.inner_position})
     *v = b.position;
   s.memory.half_spin = s.memory.torque = b.spin;
   return s;
@@ -50,12 +51,12 @@ int main() {
   const std::string path = (std::filesystem::temp_directory_path() / "isostat_bench.h5").string();
   std::printf("grains,bytes,bytes_per_grain,hash_cpu_s,encode_cpu_s,write_cpu_s,read_cpu_s\n");
   for (const std::size_t n : {1400u, 10000u, 100000u, 1000000u}) {
-    const State state = random_state(n);
+    const State<Disks> state = random_state(n);
     std::string image;
     const double hash = cpu_seconds([&] { (void)physical_hash(state); });
     const double encode = cpu_seconds([&] { image = encode_state(state); });
     const double write = cpu_seconds([&] { write_state(state, path); });
-    const double read = cpu_seconds([&] { (void)read_state(path); });
+    const double read = cpu_seconds([&] { (void)read_state<Disks>(path); });
     std::printf("%zu,%zu,%.1f,%.4g,%.4g,%.4g,%.4g\n", n, image.size(),
                 static_cast<double>(image.size()) / static_cast<double>(n), hash, encode, write, read);
   }

@@ -12,8 +12,8 @@
 namespace isostat {
 namespace {
 
-LawParameters cohesive_law() {
-  LawParameters law;
+DiskLaw cohesive_law() {
+  DiskLaw law;
   law.normal_stiffness = law.tangential_stiffness = 1e5;
   law.damping = 0.8, law.friction = 0.5;
   law.rolling_friction = 0.005, law.rolling_stiffness = 10;
@@ -21,14 +21,14 @@ LawParameters cohesive_law() {
   return law;
 }
 
-LawParameters cohesionless_law() {
-  LawParameters law = cohesive_law();
+DiskLaw cohesionless_law() {
+  DiskLaw law = cohesive_law();
   law.attraction = law.attraction_range = 0;
   return law;
 }
 
 // Two disks of diameter a at the gap h, with the law's normal force.
-Packing<2> pair_at(double gap, const LawParameters& law) {
+Packing<2> pair_at(double gap, const DiskLaw& law) {
   Packing<2> p;
   p.bodies.resize(2);
   p.bodies.id = {1, 2};
@@ -49,7 +49,7 @@ TEST(Certificate, EachDirectionHasItsOwnStress) {
 }
 
 TEST(Equilibrium, StickingPairAtZeroForceIsBalanced) {
-  const LawParameters law = cohesive_law();
+  const DiskLaw law = cohesive_law();
   const Certificate c = evaluate_certificate(pair_at(-1e-5, law), law, {}, {});
   EXPECT_NEAR(c.max_force, 0, 1e-9);
   EXPECT_EQ(c.max_moment, 0);
@@ -60,7 +60,7 @@ TEST(Equilibrium, StickingPairAtZeroForceIsBalanced) {
 }
 
 TEST(Equilibrium, NormalForceFollowsTheLawThroughContactAndRange) {
-  const LawParameters law = cohesive_law();
+  const DiskLaw law = cohesive_law();
   EXPECT_DOUBLE_EQ(at_rest(law, -3e-5).force, 2);
   EXPECT_DOUBLE_EQ(at_rest(law, 0).force, -1);
   EXPECT_DOUBLE_EQ(at_rest(law, 5e-4).force, -0.5);
@@ -69,7 +69,7 @@ TEST(Equilibrium, NormalForceFollowsTheLawThroughContactAndRange) {
 }
 
 TEST(Equilibrium, UnbalancedPairReportsItsForceInF1) {
-  LawParameters law = cohesive_law();
+  DiskLaw law = cohesive_law();
   law.attraction = 4;
   const Certificate c = evaluate_certificate(pair_at(-5e-5, law), law, {}, {});  // N = 5 - 4
   EXPECT_DOUBLE_EQ(c.force_scale, 4);
@@ -99,7 +99,7 @@ TEST(Equilibrium, NetLoadsAndStressMatchTheContactPointOracle) {
 }
 
 TEST(Equilibrium, MarginCountsAndKindsAgree) {
-  const LawParameters law = cohesive_law();
+  const DiskLaw law = cohesive_law();
   const double h = -2e-5, elastic = 2, limit_t = law.friction * elastic, limit_m = law.rolling_friction * elastic;
   EXPECT_EQ(kind_of(law, h, 0.5 * limit_t, 0), LinkKind::closed);
   EXPECT_EQ(kind_of(law, h, -limit_t * (1 - 0.9e-6), 0), LinkKind::sliding);
@@ -120,13 +120,13 @@ TEST(Equilibrium, MarginCountsAndKindsAgree) {
   EXPECT_EQ(c.rolling_yielded, 1);
   EXPECT_NEAR(c.smallest_margin, 0, 1e-12);
 
-  LawParameters frictionless = law;
+  DiskLaw frictionless = law;
   frictionless.friction = frictionless.rolling_friction = 0;
   EXPECT_EQ(evaluate_certificate(pair_at(h, law), frictionless, {}, {}).sliding, 0);
 }
 
 TEST(Equilibrium, SpinningRattlersDoNotHoldUpACohesionlessPacking) {
-  const LawParameters law = cohesionless_law();
+  const DiskLaw law = cohesionless_law();
   Packing<2> p = pair_at(-1e-12, law);  // N = 1e-7
   p.bodies.resize(3);
   p.bodies.id[2] = 3, p.bodies.position[2] = {{5, 5}};
@@ -142,7 +142,7 @@ TEST(Equilibrium, SpinningRattlersDoNotHoldUpACohesionlessPacking) {
 
 // Square lattice of touching disks, one grain a cell: two self-contacts with forces N1, N2; sigma_11 = N1 L1 / (L1 L2).
 TEST(Equilibrium, SquareLatticeCarriesItsPressure) {
-  const LawParameters law = cohesionless_law();
+  const DiskLaw law = cohesionless_law();
   Packing<2> p;
   const double overlap = 1e-5, side = 1 - overlap, n = law.normal_stiffness * overlap;
   p.cell = PeriodicCell<2>{{{side, side}}};
@@ -166,7 +166,7 @@ TEST(Equilibrium, SquareLatticeCarriesItsPressure) {
 }
 
 TEST(Equilibrium, NotANumberIsNeverBalanced) {
-  const LawParameters law = cohesive_law();
+  const DiskLaw law = cohesive_law();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Packing<2> p = pair_at(-1e-5, law);
   p.links[0].normal_force = nan;

@@ -5,17 +5,17 @@
 
 #include <limits>
 
+#include "dem/disks/engine.hpp"
 #include "dem/disks/sample.hpp"
 #include "dem/disks/scales.hpp"
-#include "dem/solver/solver.hpp"
 
 namespace isostat {
 namespace {
 
 // Three disks of diameter a in a periodic row of length 3 a: every contact has h = 0 at rest, and what one opens the
 // others are pressed by.
-State marginal_row(const LawScene& law) {
-  State s;
+State<Disks> marginal_row(const LawScene& law) {
+  State<Disks> s;
   s.scene.law = law;
   s.law = resolve(law);
   Bodies<2>& b = s.packing.bodies;
@@ -46,7 +46,7 @@ class MarginalContact : public testing::TestWithParam<double> {};
 TEST_P(MarginalContact, ComesToRest) {
   LawScene law;
   law.attraction = GetParam();
-  State s = marginal_row(law);
+  State<Disks> s = marginal_row(law);
   Solver solver(s, {});
   solver.run(100);
   solver.snapshot(s);

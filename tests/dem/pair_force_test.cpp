@@ -11,6 +11,7 @@
 #include "dem/disks/bodies_store.hpp"
 #include "dem/input_error.hpp"
 #include "dem/solver/aligned.hpp"
+#include "dem/solver/neighbours.hpp"
 #include "dem/solver/random.hpp"
 #include "tests/oracle/disk_reference.hpp"
 
@@ -39,8 +40,8 @@ std::vector<LawCase> law_cases() {
   return list;
 }
 
-LawParameters law_of(const LawCase& c) {
-  LawParameters p;
+DiskLaw law_of(const LawCase& c) {
+  DiskLaw p;
   p.normal_stiffness = 1e3;
   if (c.adhesion) p.attraction = 1.5, p.attraction_range = 0.05;
   if (c.damping) p.damping = 0.6;
@@ -61,7 +62,7 @@ struct Fixture {
   AlignedVector<double> damping, sum, tangential, moment;
   std::vector<oracle::PairMoment> pairs;
 
-  Fixture(const LawParameters& law, bool images, std::uint64_t seed) {
+  Fixture(const DiskLaw& law, bool images, std::uint64_t seed) {
     Random random(seed);
     auto between = [&](double a, double b) { return a + (b - a) * random.uniform(); };
     bodies.resize(2 * kPairs);
@@ -153,7 +154,7 @@ TEST(PairForce, EveryKernelIsTheReferenceLaw) {
           SCOPED_TRACE(std::string(name(isa)) + (c.adhesion ? " adhesion" : "") + (c.damping ? " damping" : "") +
                        (c.friction ? " friction" : "") + (c.rolling ? " rolling" : "") + " tally " +
                        std::to_string(static_cast<int>(tally)) + (images ? " images" : ""));
-          const LawParameters law = law_of(c);
+          const DiskLaw law = law_of(c);
           Fixture f(law, images, 7);
           std::vector<double> expected;
           int contacts = 0, formed = 0, slid = 0;
@@ -199,7 +200,7 @@ TEST(PairForce, TalliesDoNotChangeABit) {
   for (const LawCase& c : law_cases())
     for (Isa isa : machine_isas())
       for (bool flow : {false, true}) {
-        const LawParameters law = law_of(c);
+        const DiskLaw law = law_of(c);
         std::vector<Fixture> runs;
         for (Tally tally : {Tally::stress, Tally::energy, Tally::nothing}) {
           if (flow && tally == Tally::nothing) continue;
@@ -217,7 +218,7 @@ TEST(PairForce, TalliesDoNotChangeABit) {
 }
 
 TEST(PairForce, AnUnlistedCompositionIsRefusedWithTheList) {
-  LawParameters law = law_of({true, true, false, false});
+  DiskLaw law = law_of({true, true, false, false});
   law.rolling_friction = 0.1, law.rolling_stiffness = 1;  // rolling resistance without friction
   try {
     select_kernel(law, Tally::nothing, Isa::scalar);

@@ -1,5 +1,5 @@
 // The hash of a state sees its physics, every number of it, and nothing else.
-#include "dem/state/physical_hash.hpp"
+#include "dem/disks/physical_hash.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -16,8 +16,8 @@ namespace isostat {
 namespace {
 
 // The same packing in another order of storage, every other link seen from its other end.
-State shuffled(const State& state, std::uint64_t seed) {
-  State s = state;
+State<Disks> shuffled(const State<Disks>& state, std::uint64_t seed) {
+  State<Disks> s = state;
   const std::size_t n = state.packing.bodies.size();
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -47,8 +47,8 @@ State shuffled(const State& state, std::uint64_t seed) {
 }
 
 RC_GTEST_PROP(PhysicalHash, DoesNotSeeTheOrderOfStorage, (std::uint64_t seed)) {
-  const State state = random_state(seed, *rc::gen::inRange(1, 12), *rc::gen::inRange(0, 20));
-  State other = shuffled(state, seed + 1);
+  const State<Disks> state = random_state(seed, *rc::gen::inRange(1, 12), *rc::gen::inRange(0, 20));
+  State<Disks> other = shuffled(state, seed + 1);
   RC_ASSERT(physical_hash(other) == physical_hash(state));
   other.memory = {};
   other.scene = {};
@@ -58,39 +58,39 @@ RC_GTEST_PROP(PhysicalHash, DoesNotSeeTheOrderOfStorage, (std::uint64_t seed)) {
 }
 
 TEST(PhysicalHash, SeesEveryPhysicalNumber) {
-  const State state = random_state(20, 6, 9);
+  const State<Disks> state = random_state(20, 6, 9);
   const std::string hash = physical_hash(state);
   const auto next = [](double& x) { x = std::nextafter(x, 10.0); };
-  const std::vector<std::function<void(State&)>> changes{
-      [&](State& s) { next(s.time); },
-      [&](State& s) { next(s.law.rolling_friction); },
-      [&](State& s) { next(s.packing.cell->length[1]); },
-      [&](State& s) { s.packing.cell.reset(); },
-      [&](State& s) { next(s.cell_motion.strain_rate[0]); },
-      [&](State& s) { next(s.cell_motion.reference_length[1]); },
-      [&](State& s) { s.packing.bodies.id[3] += 1000; },
-      [&](State& s) { next(s.packing.bodies.position[5][1]); },
-      [&](State& s) { next(s.packing.bodies.velocity[0][0]); },
-      [&](State& s) { next(s.packing.bodies.spin[1]); },
-      [&](State& s) { next(s.packing.bodies.radius[2]); },
-      [&](State& s) { next(s.packing.bodies.mass[2]); },
-      [&](State& s) { next(s.packing.bodies.inertia[2]); },
-      [&](State& s) { s.packing.links.pop_back(); },
-      [&](State& s) { s.packing.links[3].shift[0] += 1; },
-      [&](State& s) {
+  const std::vector<std::function<void(State<Disks>&)>> changes{
+      [&](State<Disks>& s) { next(s.time); },
+      [&](State<Disks>& s) { next(s.law.rolling_friction); },
+      [&](State<Disks>& s) { next(s.packing.cell->length[1]); },
+      [&](State<Disks>& s) { s.packing.cell.reset(); },
+      [&](State<Disks>& s) { next(s.cell_motion.strain_rate[0]); },
+      [&](State<Disks>& s) { next(s.cell_motion.reference_length[1]); },
+      [&](State<Disks>& s) { s.packing.bodies.id[3] += 1000; },
+      [&](State<Disks>& s) { next(s.packing.bodies.position[5][1]); },
+      [&](State<Disks>& s) { next(s.packing.bodies.velocity[0][0]); },
+      [&](State<Disks>& s) { next(s.packing.bodies.spin[1]); },
+      [&](State<Disks>& s) { next(s.packing.bodies.radius[2]); },
+      [&](State<Disks>& s) { next(s.packing.bodies.mass[2]); },
+      [&](State<Disks>& s) { next(s.packing.bodies.inertia[2]); },
+      [&](State<Disks>& s) { s.packing.links.pop_back(); },
+      [&](State<Disks>& s) { s.packing.links[3].shift[0] += 1; },
+      [&](State<Disks>& s) {
         s.packing.links[3].kind = s.packing.links[3].kind == LinkKind::closed ? LinkKind::distant : LinkKind::closed;
       },
-      [&](State& s) { next(s.packing.links[4].gap); },
-      [&](State& s) { next(s.packing.links[4].normal_force); },
-      [&](State& s) { next(s.packing.links[4].tangential_force); },
-      [&](State& s) { s.packing.links[4].moment = -s.packing.links[4].moment; },
+      [&](State<Disks>& s) { next(s.packing.links[4].gap); },
+      [&](State<Disks>& s) { next(s.packing.links[4].normal_force); },
+      [&](State<Disks>& s) { next(s.packing.links[4].tangential_force); },
+      [&](State<Disks>& s) { s.packing.links[4].moment = -s.packing.links[4].moment; },
   };
   for (std::size_t k = 0; k < changes.size(); ++k) {
-    State changed = state;
+    State<Disks> changed = state;
     changes[k](changed);
     EXPECT_NE(physical_hash(changed), hash) << "change " << k;
   }
-  State zero = state, negative = state;
+  State<Disks> zero = state, negative = state;
   zero.packing.bodies.spin[0] = 0.0, negative.packing.bodies.spin[0] = -0.0;
   EXPECT_EQ(physical_hash(zero), physical_hash(negative));
 }

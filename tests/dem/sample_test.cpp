@@ -27,7 +27,7 @@ class StartFromFile : public ::testing::Test {
   void file(const std::string& text) const { std::ofstream(path_) << text; }
   std::string refusal() const {
     try {
-      (void)initial_state(scene_, 1);
+      (void)initial_disks(scene_, 1);
     } catch (const InputError& e) {
       return e.what();
     }
@@ -42,7 +42,7 @@ class StartFromFile : public ::testing::Test {
 TEST_F(StartFromFile, TheHeaviestGrainSetsTheStepAndTheLightestItsBound) {
   file("cell 10 8\ngrain 0 1 1 0.5\ngrain 1 4 4 0.25\n");
   scene_.step.fraction = 0.12;
-  const State s = initial_state(scene_, 1);
+  const State<Disks> s = initial_disks(scene_, 1);
   EXPECT_DOUBLE_EQ(s.time_step, 0.12 / std::sqrt(1e4));
   EXPECT_EQ(s.packing.bodies.size(), 2u);
   EXPECT_EQ(s.packing.cell->length, (Vec2{{10, 8}}));
@@ -56,11 +56,21 @@ TEST_F(StartFromFile, TheHeaviestGrainSetsTheStepAndTheLightestItsBound) {
   EXPECT_EQ(refusal(), "");
 }
 
+TEST_F(StartFromFile, WithoutACellOnlyWhatNeedsOneIsRefused) {
+  file("grain 0 1 1 0.5\n");
+  EXPECT_EQ(refusal(), "");
+  scene_.stages.resize(3);
+  EXPECT_EQ(refusal(), "");
+  scene_.stages[1].pressure = 0.1;
+  scene_.stages[2].strain_rate_2 = -1e-3;
+  scene_.output.snapshot_solid_fractions = {0.5};
+  for (const char* key : {"stage.1.pressure", "stage.2.strain_rate_2", "output.snapshot_solid_fractions"})
+    EXPECT_THAT(refusal(), HasSubstr(std::string(key) + ": needs a periodic cell"));
+}
+
 TEST_F(StartFromFile, DeepOverlapsAndWhatIsNoPackingOfDisksAreRefused) {
   file("cell 10 8\ngrain 0 1 1 0.5\ngrain 1 1.8 1 0.5\n");
   EXPECT_THAT(refusal(), HasSubstr("overlap by 0.2"));
-  file("grain 0 1 1 0.5\n");
-  EXPECT_THAT(refusal(), HasSubstr("periodic cell"));
   file("cell 10 8\n");
   EXPECT_NE(refusal(), "");
 }

@@ -75,7 +75,7 @@ TEST(SceneFile, OverridesReplaceTheFileAndEarlierOverrides) {
                               {"law.friction=0.1", "law.friction=0.2", "stage.0.until=\"time\"", "stage.0.time = 5",
                                "units.a=1e-6", "units.density=1", "units.F0=1e-9"});
   EXPECT_EQ(s.law.friction, 0.2);
-  EXPECT_EQ(s.stages[0].until, "time");
+  EXPECT_EQ(s.stages[0].until, Until::time);
   EXPECT_EQ(s.stages[0].time, 5.0);
   EXPECT_EQ(s.stages[0].pressure, 0.01);
   ASSERT_TRUE(s.units);
@@ -263,7 +263,7 @@ RC_GTEST_PROP(SceneFile, AnyTextIsASceneOrBadInput, ()) {
 // Uniform spin of equal disks on a triangular lattice, K_N = K_T, no rolling springs: energy per disk of 3 contacts
 // 3 K_T (2 R w)^2 / 2 against inertia m R^2 / 2: omega^2 = 24 K_T / m.
 TEST(Scales, CriticalStepIsThatOfTheTriangularLattice) {
-  LawParameters law;
+  DiskLaw law;
   law.normal_stiffness = law.tangential_stiffness = 1e5;
   const double omega = std::sqrt(24 * 1e5 / (0.5 * 0.5));
   EXPECT_NEAR(critical_time_step(law, 0.5), 2 / omega, 1e-15);
@@ -271,7 +271,7 @@ TEST(Scales, CriticalStepIsThatOfTheTriangularLattice) {
 
 TEST(Scales, OfTheShippedScene) {
   const Scene scene = read_scene(ISOSTAT_DATA "/scenes/disks-method1.toml");
-  const LawParameters law = resolve(scene.law);
+  const DiskLaw law = resolve(scene.law);
   const double dt = time_step(law, scene.step.fraction, 1.0);
   EXPECT_DOUBLE_EQ(dt, 0.12 * std::sqrt(1e-5));
   const Scales s = scales(law, 0.01, 0.5, dt);
@@ -281,7 +281,7 @@ TEST(Scales, OfTheShippedScene) {
   EXPECT_DOUBLE_EQ(*s.velocity, std::sqrt(1e-3));
   EXPECT_DOUBLE_EQ(*s.time, 1.0);
   EXPECT_NEAR(s.restitution, 0.0151646, 1e-7);  // exp(-4 pi / 3)
-  LawParameters dry = law;
+  DiskLaw dry = law;
   dry.attraction = dry.attraction_range = 0;
   const Scales t = scales(dry, 4.0, 0.5, dt);
   EXPECT_DOUBLE_EQ(*t.kappa, 1e5 / 4);

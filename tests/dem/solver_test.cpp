@@ -1,6 +1,6 @@
 // The solver against the reference of tests/oracle/disk_reference: lists, sorting, wrapping, batches and cell against
 // all pairs by brute force.
-#include "dem/solver/solver.hpp"
+#include "dem/disks/engine.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ using oracle::soft_law;
 struct Difference {
   double position = 0, velocity = 0, spin = 0;
 };
-Difference difference(const State& s, const DiskReference& reference) {
+Difference difference(const State<Disks>& s, const DiskReference& reference) {
   Difference d;
   const Bodies<2>& b = s.packing.bodies;
   for (std::size_t k = 0; k < b.size(); ++k) {
@@ -40,7 +40,7 @@ Difference difference(const State& s, const DiskReference& reference) {
   return d;
 }
 
-CellControl barostat(const State& s, double pressure, double cap = 0) {
+CellControl barostat(const State<Disks>& s, double pressure, double cap = 0) {
   CellControl c;
   c.stress = isotropic(pressure), c.max_strain_rate = cap, c.inertia = 0.3 * oracle::total_mass(s);
   return c;
@@ -97,7 +97,7 @@ std::vector<RunCase> run_cases() {
 }
 
 TEST(Solver, DrivesOneDirectionAndLoadsTheOther) {
-  State s = random_state(with(soft_law(), 11));
+  State<Disks> s = random_state(with(soft_law(), 11));
   CellControl control = barostat(s, 20, 2.0);
   control.stress[1].reset();
   control.strain_rate = {{0, -0.7}};
@@ -117,7 +117,7 @@ TEST(Solver, DrivesOneDirectionAndLoadsTheOther) {
 TEST(Solver, MarchesLikeTheReferenceSolver) {
   for (const RunCase& c : run_cases()) {
     SCOPED_TRACE(c.name);
-    State s = random_state(c.disks);
+    State<Disks> s = random_state(c.disks);
     CellControl control;
     if (c.pressure) control = barostat(s, *c.pressure, 2.0);
     control.rate_coupling = c.rate_coupling;
@@ -144,7 +144,7 @@ TEST(Solver, MarchesLikeTheReferenceSolver) {
       }
       EXPECT_GT(std::abs(s.packing.cell->length[0] / s.cell_motion.reference_length[0] - 1), 0.005) << "the cell moved";
     }
-    EXPECT_GT(solver.lists().inner_rebuilds(), 2u);
+    EXPECT_GT(solver.engine().lists().inner_rebuilds(), 2u);
   }
 }
 
@@ -153,7 +153,7 @@ using PairName = std::tuple<std::int64_t, std::int64_t, int, int>;
 PairName named(std::int64_t a, std::int64_t b, int s1, int s2) {
   return a < b ? PairName{a, b, s1, s2} : PairName{b, a, -s1, -s2};
 }
-std::set<PairName> brute_force_links(const State& s) {
+std::set<PairName> brute_force_links(const State<Disks>& s) {
   std::set<PairName> found;
   const Bodies<2>& b = s.packing.bodies;
   for (std::size_t i = 0; i < b.size(); ++i)
@@ -166,7 +166,7 @@ std::set<PairName> brute_force_links(const State& s) {
         }
   return found;
 }
-std::multiset<PairName> listed_links(const State& s) {
+std::multiset<PairName> listed_links(const State<Disks>& s) {
   std::multiset<PairName> found;
   for (const Link<2>& l : s.packing.links)
     found.insert(named(s.packing.bodies.id[static_cast<std::size_t>(l.i)],
@@ -196,7 +196,7 @@ TEST(NeighbourLists, HoldEveryInteractionOnceWhateverTheCellDoes) {
     r.count = c.count, r.solid_fraction = c.solid_fraction, r.squeeze = c.squeeze, r.aspect = c.aspect;
     r.diameter_min = c.diameter_min, r.law = soft_law(), r.law.attraction_range = c.range;
     if (c.diameter_min < 0.2) r.step_fraction = 0.01;
-    State s = random_state(r);
+    State<Disks> s = random_state(r);
     const CellControl control = c.pressure == 0 ? CellControl{} : barostat(s, c.pressure, 3.0);
     Solver solver(s, control);
     std::size_t most = 0;
@@ -210,7 +210,7 @@ TEST(NeighbourLists, HoldEveryInteractionOnceWhateverTheCellDoes) {
       solver.step();
     }
     EXPECT_GE(most, c.links);
-    EXPECT_GT(solver.lists().inner_rebuilds(), 3u);
+    EXPECT_GT(solver.engine().lists().inner_rebuilds(), 3u);
   }
 }
 
@@ -220,7 +220,7 @@ TEST(NeighbourLists, ACellSmallerThanAGrainIsRefused) {
   EXPECT_THROW(Solver(random_state(r), CellControl{}), RunError);
   // ... and also when it becomes so in the run.
   r.count = 2, r.squeeze = 1, r.solid_fraction = 0.3;
-  const State s = random_state(r);
+  const State<Disks> s = random_state(r);
   Solver solver(s, barostat(s, 3e3, 5.0));
   EXPECT_THROW(solver.run(20000), RunError);
 }
@@ -231,13 +231,13 @@ TEST(NeighbourLists, CarryTheSpringsOfEveryPair) {
   RandomDisks r;
   r.law = soft_law(), r.law.friction = 5, r.law.rolling_friction = 1;  // springs that stretch and rarely yield
   r.speed = 0.5, r.seed = 21;
-  State s = random_state(r);
+  State<Disks> s = random_state(r);
   for (Vec2& v : s.packing.bodies.velocity) v += Vec2{{12, -8}};  // several cells in the run
   const CellControl control = barostat(s, 30, 2.0);
   DiskReference reference(s, control);
   Solver solver(s, control);
   for (int k = 0; k < 600; ++k) solver.step(), reference.step();
-  EXPECT_GT(solver.lists().outer_rebuilds(), 3u);
+  EXPECT_GT(solver.engine().lists().outer_rebuilds(), 3u);
   solver.snapshot(s);
 
   // By ids; the image follows from the nearest one, as wrapped and unwrapped coordinates count images differently.
@@ -271,13 +271,13 @@ TEST(NeighbourLists, CarryTheSpringsOfEveryPair) {
 TEST(NeighbourLists, TakeSpringsOfForeignLinks) {
   RandomDisks r;
   r.law = soft_law();
-  State s = random_state(r);
+  State<Disks> s = random_state(r);
   {
     Solver solver(s, {});
     solver.run(60);
     solver.snapshot(s);
   }
-  State turned = s;
+  State<Disks> turned = s;
   turned.memory = {};
   s.memory = {};
   const Vec2 cell = s.packing.cell->length;

@@ -4,14 +4,14 @@
 
 #include <cmath>
 
+#include "dem/disks/energy.hpp"
+#include "dem/disks/engine.hpp"
+#include "dem/disks/physical_hash.hpp"
 #include "dem/disks/sample.hpp"
 #include "dem/files/state_file.hpp"
 #include "dem/run/stages.hpp"
 #include "dem/scene/file.hpp"
-#include "dem/solver/solver.hpp"
 #include "dem/state/clusters.hpp"
-#include "dem/state/energy.hpp"
-#include "dem/state/physical_hash.hpp"
 
 namespace isostat {
 namespace {
@@ -30,16 +30,16 @@ Scene gas(int count = 40) {
 
 StageScene aggregation() {
   StageScene s;
-  s.velocity = 9.48, s.until = "aggregated";
+  s.velocity = 9.48, s.until = Until::aggregated;
   return s;
 }
 
-const State& aggregate() {
-  static const State state = [] {
+const State<Disks>& aggregate() {
+  static const State<Disks> state = [] {
     Scene scene = gas();
     scene.finish.method = Finish::drag;
     scene.stages = {aggregation()};
-    State s = initial_state(scene, 3);
+    State<Disks> s = initial_disks(scene, 3);
     EXPECT_TRUE(run_stages(s, {}, {}).all_met());
     return s;
   }();
@@ -47,8 +47,8 @@ const State& aggregate() {
 }
 
 // The stage run on the aggregate.
-State go_on(const StageScene& stage, RunOutcome* outcome = nullptr, bool energies = false) {
-  State s = aggregate();
+State<Disks> go_on(const StageScene& stage, RunOutcome* outcome = nullptr, bool energies = false) {
+  State<Disks> s = aggregate();
   s.scene.finish.method = Finish::none;
   s.scene.stages = {stage};
   s.progress = {};
@@ -66,8 +66,8 @@ TEST(Stages, AggregationEndsWithOneClusterInEquilibrium) {
 
 TEST(Stages, StiffeningFollowsTheExponentialAndKeepsTheEnergyLedger) {
   StageScene stage;
-  stage.normal_stiffness = 1e4, stage.stiffening_time = 2, stage.until = "time", stage.time = 1;
-  const State half = go_on(stage, nullptr, true);
+  stage.normal_stiffness = 1e4, stage.stiffening_time = 2, stage.until = Until::time, stage.time = 1;
+  const State<Disks> half = go_on(stage, nullptr, true);
   EXPECT_NEAR(half.law.normal_stiffness, 1e3 * std::sqrt(10.0), 1e3 * std::sqrt(10.0) * 2e-2);
   EXPECT_EQ(half.law.tangential_stiffness, half.law.normal_stiffness);
   EXPECT_NEAR(half.law.rolling_stiffness, 1e-4 * half.law.normal_stiffness, 1e-9);
@@ -76,7 +76,7 @@ TEST(Stages, StiffeningFollowsTheExponentialAndKeepsTheEnergyLedger) {
   EXPECT_NEAR(after, before, 2e-4 * std::abs(energies(half).adhesive) + 1e-6);
 
   stage.time = 3;
-  const State whole = go_on(stage);
+  const State<Disks> whole = go_on(stage);
   EXPECT_EQ(whole.law.normal_stiffness, 1e4);
 }
 
@@ -84,7 +84,7 @@ TEST(Stages, StiffeningKeepsTheForcesOfTheSpringsOrTheirElongations) {
   LawScene stiffer = aggregate().scene.law;
   stiffer.normal_stiffness *= 3;
   for (const Springs kept : {Springs::keep_forces, Springs::keep_elongations}) {
-    State s = aggregate();
+    State<Disks> s = aggregate();
     Solver solver(s, {});
     solver.set_law(resolve(stiffer), kept);
     solver.snapshot(s);
@@ -102,20 +102,20 @@ TEST(Stages, StiffeningKeepsTheForcesOfTheSpringsOrTheirElongations) {
 }
 
 TEST(Stages, StiffeningRestartsBitForBit) {
-  for (const char* kept : {"forces", "elongations"}) {
-    SCOPED_TRACE(kept);
+  for (const Springs kept : {Springs::keep_forces, Springs::keep_elongations}) {
+    SCOPED_TRACE(kSpringsNames[static_cast<std::size_t>(kept)]);
     StageScene stage;
     stage.stiffening_keeps = kept;
-    stage.normal_stiffness = 1e4, stage.stiffening_time = 2, stage.until = "time", stage.time = 1.5;
-    const State straight = go_on(stage);
-    State s = aggregate();
+    stage.normal_stiffness = 1e4, stage.stiffening_time = 2, stage.until = Until::time, stage.time = 1.5;
+    const State<Disks> straight = go_on(stage);
+    State<Disks> s = aggregate();
     s.scene.stages = {stage}, s.progress = {}, s.scene.finish.method = Finish::none;
     int polls = 0;
-    RunHooks stop;
+    RunHooks<Disks> stop;
     stop.interrupted = [&] { return ++polls > 25; };
     ASSERT_TRUE(run_stages(s, {}, stop).interrupted);
     ASSERT_LT(s.law.normal_stiffness, 1e4);
-    s = decode_state(encode_state(s), "memory").state;
+    s = std::get<State<Disks>>(decode_state(encode_state(s), "memory").state);
     run_stages(s, {}, {});
     EXPECT_EQ(physical_hash(s), physical_hash(straight));
   }
@@ -123,9 +123,9 @@ TEST(Stages, StiffeningRestartsBitForBit) {
 
 TEST(Stages, TensionTearsTheAggregateApart) {
   StageScene stage;
-  stage.strain_rate_1 = -0.02, stage.stress_2 = 0.0, stage.until = "failure", stage.max_time = 100;
+  stage.strain_rate_1 = -0.02, stage.stress_2 = 0.0, stage.until = Until::failure, stage.max_time = 100;
   RunOutcome outcome;
-  const State torn = go_on(stage, &outcome);
+  const State<Disks> torn = go_on(stage, &outcome);
   ASSERT_TRUE(outcome.all_met()) << outcome.stages.at(0).reason;
   EXPECT_GT(torn.packing.cell->length[0], aggregate().packing.cell->length[0]);
   EXPECT_GT(torn.progress.peak_stress, 1e-3);
@@ -134,9 +134,9 @@ TEST(Stages, TensionTearsTheAggregateApart) {
 
 TEST(Stages, StrainEndsADrivenStage) {
   StageScene stage;
-  stage.strain_rate_2 = 0.05, stage.until = "strain", stage.strain = 0.02;
+  stage.strain_rate_2 = 0.05, stage.until = Until::strain, stage.strain = 0.02;
   RunOutcome outcome;
-  const State s = go_on(stage, &outcome);
+  const State<Disks> s = go_on(stage, &outcome);
   EXPECT_TRUE(outcome.all_met());
   EXPECT_NEAR(1 - s.packing.cell->length[1] / aggregate().packing.cell->length[1], 0.02, 0.05 * 1.1);
   EXPECT_GE(1 - s.packing.cell->length[1] / aggregate().packing.cell->length[1], 0.02);
@@ -153,19 +153,19 @@ TEST(Stages, LoadPathBecomesStages) {
   EXPECT_EQ(scene.stages[2].pressure, 0.01);
   EXPECT_EQ(scene.stages[0].velocity, 2);
   EXPECT_EQ(scene.stages[1].velocity, 0);
-  EXPECT_EQ(scene.stages[3].until, "time");
+  EXPECT_EQ(scene.stages[3].until, Until::time);
   EXPECT_TRUE(scene.stages[0].pressures.empty());
 }
 
 TEST(Stages, EveryStageEndIsSeen) {
   Scene scene = gas(20);
   StageScene brief;
-  brief.until = "time", brief.time = 0.2;
+  brief.until = Until::time, brief.time = 0.2;
   scene.stages = {brief, brief, brief};
-  State s = initial_state(scene, 1);
+  State<Disks> s = initial_disks(scene, 1);
   std::vector<int> ends;
-  RunHooks hooks;
-  hooks.stage_end = [&](const State& at) { ends.push_back(at.progress.stage); };
+  RunHooks<Disks> hooks;
+  hooks.stage_end = [&](const State<Disks>& at) { ends.push_back(at.progress.stage); };
   run_stages(s, {}, hooks);
   EXPECT_EQ(ends, (std::vector<int>{1, 2, 3}));
 }

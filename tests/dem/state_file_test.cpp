@@ -18,11 +18,11 @@
 #include <limits>
 #include <sstream>
 
+#include "dem/disks/physical_hash.hpp"
+#include "dem/disks/state_check.hpp"
 #include "dem/files/atomic_file.hpp"
 #include "dem/files/state_seal.hpp"
 #include "dem/input_error.hpp"
-#include "dem/state/physical_hash.hpp"
-#include "dem/state/state_check.hpp"
 #include "tests/support/random_state.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -42,10 +42,10 @@ std::string message_of(const std::function<void()>& action) {
 }
 
 RC_GTEST_PROP(StateFile, EverythingComesBack, (std::uint64_t seed)) {
-  const State state = random_state(seed, *rc::gen::inRange(0, 12), *rc::gen::inRange(0, 20));
+  const State<Disks> state = random_state(seed, *rc::gen::inRange(0, 12), *rc::gen::inRange(0, 20));
   const std::string image = encode_state(state, {"1.2.3", "", "pack scene.toml"});
   const StateFile back = decode_state(image, "memory");
-  expect_equal(state, back.state);
+  expect_equal(state, std::get<State<Disks>>(back.state));
   RC_ASSERT(!::testing::Test::HasFailure());
   RC_ASSERT(back.provenance.version == "1.2.3");
   RC_ASSERT(back.provenance.command == "pack scene.toml");
@@ -56,11 +56,11 @@ RC_GTEST_PROP(StateFile, EverythingComesBack, (std::uint64_t seed)) {
 
 TEST(StateFile, SameStateSameBytesOnDisk) {
   const TemporaryFolder folder;
-  const State state = random_state(3, 50, 90);
+  const State<Disks> state = random_state(3, 50, 90);
   write_state(state, folder / "a.h5");
   write_state(state, folder / "b.h5");
   EXPECT_EQ(read_whole_file(folder / "a.h5"), read_whole_file(folder / "b.h5"));
-  expect_equal(read_state(folder / "a.h5"), state);
+  expect_equal(read_state<Disks>(folder / "a.h5"), state);
   EXPECT_TRUE(is_state_file(folder / "a.h5"));
   EXPECT_EQ(folder.entries(), 2u);
 }
@@ -90,10 +90,10 @@ TEST(StateFile, EveryFlippedBitIsBadInput) {
 
 TEST(StateFile, OtherFilesAreBadInput) {
   const TemporaryFolder folder;
-  EXPECT_THAT(message_of([&] { read_state(folder / "none.h5"); }), HasSubstr("No such file"));
-  EXPECT_THAT(message_of([&] { read_state("/tmp"); }), HasSubstr("directory"));
+  EXPECT_THAT(message_of([&] { read_state<Disks>(folder / "none.h5"); }), HasSubstr("No such file"));
+  EXPECT_THAT(message_of([&] { read_state<Disks>("/tmp"); }), HasSubstr("directory"));
   std::ofstream(folder / "text.h5") << "hello";
-  EXPECT_THAT(message_of([&] { read_state(folder / "text.h5"); }), HasSubstr("not a state file"));
+  EXPECT_THAT(message_of([&] { read_state<Disks>(folder / "text.h5"); }), HasSubstr("not a state file"));
   EXPECT_FALSE(is_state_file(folder / "text.h5") || is_state_file(folder / "none.h5") || is_state_file("/tmp"));
   std::string later = encode_state(random_state(1, 2, 1));
   later.replace(later.find("version 3"), 9, "version 4");
@@ -101,7 +101,7 @@ TEST(StateFile, OtherFilesAreBadInput) {
 }
 
 // The image after changes by the HDF5 library itself, sealed anew: what only the inner checks can find.
-std::string edited(const State& state, const std::function<void(hid_t)>& edit) {
+std::string edited(const State<Disks>& state, const std::function<void(hid_t)>& edit) {
   std::string image = encode_state(state);
   const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
   H5Pset_fapl_core(access, 1 << 16, false);
@@ -152,7 +152,7 @@ struct InnerFault {
 };
 
 TEST(StateFile, EveryInnerFaultIsNamed) {
-  const State state = random_state(8, 10, 15);
+  const State<Disks> state = random_state(8, 10, 15);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NO_THROW(decode_state(edited(state, [](hid_t) {}), "untouched"));
   const std::vector<InnerFault> faults{
@@ -206,7 +206,7 @@ TEST(StateFile, EveryInnerFaultIsNamed) {
 
 TEST(StateFile, ImpossibleStatesAreNotWritten) {
   const TemporaryFolder folder;
-  State state = random_state(9, 5, 4);
+  State<Disks> state = random_state(9, 5, 4);
   state.packing.bodies.velocity[2][1] = std::numeric_limits<double>::infinity();
   EXPECT_THROW(write_state(state, folder / "state.h5"), std::invalid_argument);
   EXPECT_EQ(folder.entries(), 0u);
@@ -217,7 +217,7 @@ TEST(StateFile, ImpossibleStatesAreNotWritten) {
 
 TEST(StateFile, FailedWriteLeavesTheOldFileAndNothingElse) {
   const TemporaryFolder folder;
-  const State old = random_state(10, 5, 4);
+  const State<Disks> old = random_state(10, 5, 4);
   write_state(old, folder / "state.h5");
   rlimit before{};
   ::getrlimit(RLIMIT_FSIZE, &before);
@@ -229,12 +229,12 @@ TEST(StateFile, FailedWriteLeavesTheOldFileAndNothingElse) {
   ::signal(SIGXFSZ, handler);
   EXPECT_THAT(message, HasSubstr("cannot be written: File too large"));
   EXPECT_EQ(folder.entries(), 1u);
-  expect_equal(read_state(folder / "state.h5"), old);
+  expect_equal(read_state<Disks>(folder / "state.h5"), old);
 }
 
 TEST(StateFile, UnwritablePathsAreBadInput) {
   const TemporaryFolder folder;
-  const State state = random_state(12, 3, 2);
+  const State<Disks> state = random_state(12, 3, 2);
   for (const std::string& path : {folder / "no/such/state.h5", std::string("/tmp"), std::string()}) {
     EXPECT_THROW(write_state(state, path), InputError) << path;
     EXPECT_THROW(require_writable(path), InputError) << path;
@@ -247,7 +247,7 @@ TEST(StateFile, UnwritablePathsAreBadInput) {
   fs::create_symlink(folder / "real.h5", folder / "link.h5");
   write_state(random_state(13, 3, 2), folder / "link.h5");
   EXPECT_TRUE(fs::is_symlink(folder / "link.h5"));
-  expect_equal(read_state(folder / "real.h5"), random_state(13, 3, 2));
+  expect_equal(read_state<Disks>(folder / "real.h5"), random_state(13, 3, 2));
 }
 
 // The reader printed in docs/formats.md, run as it stands.
@@ -260,7 +260,7 @@ TEST(StateFile, IsReadByTheTenLinesOfTheDocumentation) {
   const std::string fence = "```python\n", all = text.str();
   const std::size_t begin = all.find(fence) + fence.size();
   const TemporaryFolder folder;
-  State state = random_state(21, 4, 3);
+  State<Disks> state = random_state(21, 4, 3);
   for (Link<2>& l : state.packing.links) {
     const Bodies<2>& b = state.packing.bodies;
     const auto i = static_cast<std::size_t>(l.i), j = static_cast<std::size_t>(l.j);

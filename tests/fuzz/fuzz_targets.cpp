@@ -5,6 +5,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "dem/disks/state_check.hpp"
 #include "dem/files/formats/csv.hpp"
 #include "dem/files/formats/dump.hpp"
 #include "dem/files/network_file.hpp"
@@ -13,7 +14,6 @@
 #include "dem/input_error.hpp"
 #include "dem/scene/file.hpp"
 #include "dem/scene/text.hpp"
-#include "dem/state/state_check.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace isostat {

@@ -37,7 +37,7 @@ std::vector<std::string> network_seeds(const std::string& data) { return files(d
 std::vector<std::string> state_seeds(const std::string& data) {
   std::vector<std::string> all;
   for (const Packing<2>& packing : clusters(data)) {
-    State state;
+    State<Disks> state;
     state.packing = packing;
     state.scene.stages.resize(1);
     const std::size_t n = state.packing.bodies.size();

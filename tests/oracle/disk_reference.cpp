@@ -1,5 +1,7 @@
 #include "tests/oracle/disk_reference.hpp"
 
+#include "dem/disks/motion.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -21,7 +23,7 @@ double yield(double stiffness, double limit, double force, double displacement, 
 
 }  // namespace
 
-PairResponse pair_response(const LawParameters& law, const PairMoment& c) {
+PairResponse pair_response(const DiskLaw& law, const PairMoment& c) {
   PairResponse out;
   const double distance = std::hypot(c.x, c.y), nx = c.x / distance, ny = c.y / distance;
   const double tx = -ny, ty = nx;
@@ -74,7 +76,7 @@ PairResponse pair_response(const LawParameters& law, const PairMoment& c) {
   return out;
 }
 
-DiskReference::DiskReference(const State& s, const CellControl& control)
+DiskReference::DiskReference(const State<Disks>& s, const CellControl& control)
     : law_(s.law), control_(control), dt_(s.time_step), ledger_(s.ledger) {
   for (int a = 0; a < 2; ++a) {
     const auto k = static_cast<std::size_t>(a);

@@ -7,8 +7,8 @@
 #include <map>
 #include <vector>
 
+#include "dem/disks/disks.hpp"
 #include "dem/solver/barostat.hpp"
-#include "dem/state/state.hpp"
 
 namespace isostat::oracle {
 
@@ -32,7 +32,7 @@ struct PairResponse {
   double viscous_force = 0;           // part of the normal force
   double sliding = 0, rolling = 0;    // energy that the yield limits have dissipated
 };
-PairResponse pair_response(const LawParameters& law, const PairMoment& pair);
+PairResponse pair_response(const DiskLaw& law, const PairMoment& pair);
 
 struct DiskMoment {
   std::int64_t id = 0;
@@ -48,7 +48,7 @@ struct DiskMoment {
 class DiskReference {
  public:
   // Positions, full-step velocities and spins, cell, law, springs of the links; the solver's memory is not looked at.
-  DiskReference(const State& state, const CellControl& control);
+  DiskReference(const State<Disks>& state, const CellControl& control);
   void step();
   void set_drag(double rate) { drag_ = rate; }
 
@@ -69,7 +69,7 @@ class DiskReference {
   void forces(double dt);
   void stress(double virial_x, double virial_y, double kinetic_x, double kinetic_y);
 
-  LawParameters law_;
+  DiskLaw law_;
   CellControl control_;
   double dt_ = 0, drag_ = 0;
   std::array<double, 2> length_{}, reference_{}, rate_{}, stress_{}, flow_half_{}, flow_now_{};

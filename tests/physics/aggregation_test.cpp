@@ -5,12 +5,12 @@
 
 #include "analysis/finishing/newton_finishing.hpp"
 #include "dem/disks/certificate.hpp"
+#include "dem/disks/physical_hash.hpp"
 #include "dem/disks/sample.hpp"
 #include "dem/files/state_file.hpp"
 #include "dem/run/stages.hpp"
 #include "dem/scene/file.hpp"
 #include "dem/state/clusters.hpp"
-#include "dem/state/physical_hash.hpp"
 
 namespace isostat {
 namespace {
@@ -22,22 +22,22 @@ Scene shipped(const std::string& name, int count, const std::vector<std::string>
 }
 
 struct Stop {
-  State state;
+  State<Disks> state;
   std::size_t clusters;
 };
 
 std::vector<Stop> run(const Scene& scene, std::uint64_t seed) {
   NewtonFinishing newton;
   std::vector<Stop> ends;
-  State s = initial_state(scene, seed);
-  RunHooks hooks;
-  hooks.stage_end = [&](const State& at) { ends.push_back({at, count_clusters(at.packing)}); };
+  State<Disks> s = initial_disks(scene, seed);
+  RunHooks<Disks> hooks;
+  hooks.stage_end = [&](const State<Disks>& at) { ends.push_back({at, count_clusters(at.packing)}); };
   const RunOutcome o = run_stages(s, {}, hooks, &newton);
   for (const StageOutcome& stage : o.stages) EXPECT_TRUE(stage.met) << stage.stage << ": " << stage.reason;
   return ends;
 }
 
-double coordination(const State& s) {
+double coordination(const State<Disks>& s) {
   return 2 * static_cast<double>(s.packing.links.size()) / static_cast<double>(s.packing.bodies.size());
 }
 
@@ -77,13 +77,13 @@ TEST(Aggregation, InterruptedWhileFlyingItEndsTheSame) {
   const std::vector<Stop> straight = run(scene, 3);
   ASSERT_EQ(straight.size(), 3u);
   NewtonFinishing newton;
-  State s = initial_state(scene, 3);
+  State<Disks> s = initial_disks(scene, 3);
   int polls = 0, times = 0;
-  RunHooks stop;
+  RunHooks<Disks> stop;
   // Rarer and rarer: a static solve is begun anew each time, and must be left alone for once.
   stop.interrupted = [&] { return ++polls % (10 + 10 * times) == 0; };
   while (run_stages(s, {}, stop, &newton).interrupted) {
-    s = decode_state(encode_state(s), "memory").state;
+    s = std::get<State<Disks>>(decode_state(encode_state(s), "memory").state);
     polls = 0;
     ASSERT_LT(++times, 10000);
   }

@@ -25,7 +25,7 @@ LawScene cohesive() {
 }
 double static_overlap(const LawScene& law) { return law.attraction / law.normal_stiffness; }  // h0
 
-double largest_static_force(const State& s) {
+double largest_static_force(const State<Disks>& s) {
   return evaluate_certificate(s.packing, s.law, {}, EquilibriumScene{}).max_force;
 }
 
@@ -62,7 +62,7 @@ TEST(Pair, PartsFromTheSpeedThatPaysForTheAttraction) {
 
 TEST(Pair, SticksAtTheStaticOverlap) {
   const LawScene law = cohesive();
-  State s = lab::few_bodies(law, {{0, 0, 0.5, 0.02, 0, 0}, {1 + 0.5e-3, 0, 0.5, 0, 0, 0}}, 0.06);
+  State<Disks> s = lab::few_bodies(law, {{0, 0, 0.5, 0.02, 0, 0}, {1 + 0.5e-3, 0, 0.5, 0, 0, 0}}, 0.06);
   Solver solver(s, {});
   solver.run(40000);
   solver.snapshot(s);
@@ -104,7 +104,7 @@ TEST(Cluster, TriangleChainAndRingRestAtTheStaticOverlap) {
   for (int k = 0; k < 6; ++k) clusters[2].push_back({d * std::cos(k * kPi / 3), d * std::sin(k * kPi / 3)});
   const std::size_t contacts[] = {3, 5, 6};
   for (std::size_t c = 0; c < clusters.size(); ++c) {
-    State s = lab::few_bodies(law, clusters[c], 0.06);
+    State<Disks> s = lab::few_bodies(law, clusters[c], 0.06);
     Solver solver(s, {});
     solver.run(5000);
     solver.snapshot(s);
@@ -126,7 +126,7 @@ TEST(Cluster, ASpinningRingBearsItsHoopTension) {
     const double x = d * std::cos(k * kPi / 3), y = d * std::sin(k * kPi / 3);
     disks.push_back({x, y, 0.5, -omega * y, omega * x, omega});
   }
-  State s = lab::few_bodies(law, disks, 0.06);
+  State<Disks> s = lab::few_bodies(law, disks, 0.06);
   Solver solver(s, {});
   solver.run(std::llround(2 * kPi / omega / s.time_step));  // one turn
   solver.snapshot(s);
@@ -163,7 +163,7 @@ TEST(Objectivity, ALoadedClusterKeepsItsForcesWhenItTurnsAndTravels) {
   lab::ClusterSetup setup = lab::default_cluster_setup();
   setup.step_fraction = 0.06;
   const lab::ClusterResult r = lab::double_triangle(setup);
-  State s = r.state;
+  State<Disks> s = r.state;
   s.memory = {};
   Vec2 centre{};
   for (const Vec2& x : s.packing.bodies.position) centre += 0.25 * x;
@@ -189,11 +189,11 @@ TEST(Objectivity, ALoadedClusterKeepsItsForcesWhenItTurnsAndTravels) {
 // A pair turned rigidly by hand, phi a step, through the kernel: the tangential spring sees sin(phi) - phi of spurious
 // slip a step, which over a turn is of second order in phi.
 TEST(Objectivity, TheSpuriousSlipOfARigidTurnIsOfSecondOrder) {
-  LawParameters law = resolve(cohesive());
+  DiskLaw law = resolve(cohesive());
   law.damping = 0, law.attraction = law.attraction_range = 0, law.friction = 100;
   const double overlap = 1e-3, d = 1 - overlap, arm_i = 0.7 * d, arm_j = 0.3 * d;  // radii .7 and .3
   auto change = [&](int steps) {
-    State s = lab::few_bodies(LawScene{}, {{0, 0, 0.7}, {d, 0, 0.3}}, 0.06);
+    State<Disks> s = lab::few_bodies(LawScene{}, {{0, 0, 0.7}, {d, 0, 0.3}}, 0.06);
     const double phi = 2 * kPi / steps, load = 5;
     AlignedVector<double> rows(4 * kernel::kRowWidth, 0.0), loads(4 * kernel::kLoadWidth, 0.0);
     rows[3 * kernel::kRowWidth] = 1e6;
@@ -237,7 +237,7 @@ TEST(Lattice, HasItsKnownStress) {
       if (!cohesion) law.attraction = 0;
       const double overlap = 4e-5, d = 1 - overlap;
       const double normal = law.normal_stiffness * overlap - (cohesion ? law.attraction : 0);
-      State s;
+      State<Disks> s;
       s.scene.law = law, s.law = resolve(law);
       const int n = 6;
       const double row_height = triangular ? d * std::sqrt(0.75) : d;

@@ -1,12 +1,12 @@
 // Invariants: momentum to rounding, angular momentum of an isolated cluster, the energy ledger.
-#include "dem/state/energy.hpp"
+#include "dem/disks/energy.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "dem/disks/engine.hpp"
 #include "dem/disks/lab/few_bodies.hpp"
-#include "dem/solver/solver.hpp"
 #include "tests/support/disk_states.hpp"
 
 namespace isostat {
@@ -15,7 +15,7 @@ namespace {
 using oracle::random_state;
 using oracle::RandomDisks;
 
-CellControl barostat(const State& s, double pressure, double cap) {
+CellControl barostat(const State<Disks>& s, double pressure, double cap) {
   CellControl c;
   c.stress = isotropic(pressure), c.max_strain_rate = cap, c.inertia = 0.3 * oracle::total_mass(s);
   return c;
@@ -25,7 +25,7 @@ TEST(Momentum, IsConservedToRounding) {
   for (bool free_cell : {false, true}) {
     RandomDisks r;
     r.law = oracle::soft_law(), r.speed = 2;
-    State s = random_state(r);
+    State<Disks> s = random_state(r);
     auto momentum = [&] {
       Vec2 p{};
       for (std::size_t k = 0; k < s.packing.bodies.size(); ++k)
@@ -44,12 +44,12 @@ TEST(Momentum, IsConservedToRounding) {
 // With the proportional lever arms the tangential forces of a pair carry no net moment: l_i + l_j = |r_ij|.
 TEST(AngularMomentum, OfAnIsolatedClusterIsConservedToRounding) {
   LawScene law = oracle::soft_law();
-  State s = lab::few_bodies(law,
-                            {{0, 0, 0.5, 0.3, 0, 4},
-                             {0.95, 0.1, 0.4, -0.5, 0.8, -3},
-                             {0.4, 0.9, 0.45, 0, -1.5, 1},
-                             {1.2, 1.0, 0.3, -2, -1, 7}},
-                            0.06);
+  State<Disks> s = lab::few_bodies(law,
+                                   {{0, 0, 0.5, 0.3, 0, 4},
+                                    {0.95, 0.1, 0.4, -0.5, 0.8, -3},
+                                    {0.4, 0.9, 0.45, 0, -1.5, 1},
+                                    {1.2, 1.0, 0.3, -2, -1, 7}},
+                                   0.06);
   auto angular = [&] {
     double l = 0;
     const Bodies<2>& b = s.packing.bodies;
@@ -88,7 +88,7 @@ double ledger_error(const Gas& gas, double step_fraction) {
     r.law = LawScene{};  // kappa 1e5, cohesion, friction, rolling resistance
     r.law.damping = gas.damping;
     r.step_fraction = step_fraction;
-    State s = random_state(r);
+    State<Disks> s = random_state(r);
     CellControl control;
     if (gas.pressure > 0) control = barostat(s, gas.pressure, 0.05);
     control.rate_coupling = gas.rate_coupling;

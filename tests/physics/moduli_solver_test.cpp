@@ -8,9 +8,9 @@
 #include "analysis/rigidity/exact_rank.hpp"
 #include "analysis/stiffness/moduli.hpp"
 #include "dem/disks/at_rest.hpp"
+#include "dem/disks/engine.hpp"
 #include "dem/disks/sample.hpp"
 #include "dem/run/stages.hpp"
-#include "dem/solver/solver.hpp"
 #include "dem/state/link.hpp"
 
 namespace isostat {
@@ -30,7 +30,7 @@ Vec2 static_stress(const Packing<2>& p) {
 }
 
 // Relaxes in a fixed cell under a drag, from the positions and springs of the state.
-State relaxed(State s, int steps) {
+State<Disks> relaxed(State<Disks> s, int steps) {
   s.memory = {};
   for (auto& v : s.packing.bodies.velocity) v = {};
   for (auto& w : s.packing.bodies.spin) w = 0;
@@ -44,7 +44,7 @@ State relaxed(State s, int steps) {
 }
 
 // Affine compression along an axis; springs are stretched by the affine relative displacement, as in a step.
-State strained(State s, int axis, double strain) {
+State<Disks> strained(State<Disks> s, int axis, double strain) {
   for (Link<2>& l : s.packing.links) {
     const auto i = static_cast<std::size_t>(l.i), j = static_cast<std::size_t>(l.j);
     const Vec2 r = s.packing.bodies.position[j] + s.packing.cell->offset(l.shift) - s.packing.bodies.position[i];
@@ -60,7 +60,7 @@ State strained(State s, int axis, double strain) {
 }
 
 // A soft packing under pressure, relaxed to rounding.
-State real_packing() {
+State<Disks> real_packing() {
   Scene scene;
   scene.grains.count = 80;
   scene.law.normal_stiffness = 1e3;  // soft: the geometric term is then far above the rounding
@@ -70,7 +70,7 @@ State real_packing() {
   StageScene stage;
   stage.pressure = 1.0;
   scene.stages = {stage};
-  State s = initial_state(scene, 3);
+  State<Disks> s = initial_disks(scene, 3);
   if (!run_stages(s, {}, {}).all_met()) throw std::runtime_error("no equilibrium");
   return relaxed(s, 200000);
 }
@@ -79,7 +79,7 @@ State real_packing() {
 // geometry, by Newton's method with a finite-difference Jacobian.
 class DisplacedNetwork {
  public:
-  explicit DisplacedNetwork(const State& s) : s_(s) {}
+  explicit DisplacedNetwork(const State<Disks>& s) : s_(s) {}
 
   // Affine part -e r, e = (e11, e22, gamma12); u: displacement and rotation by body. Body forces, and the stress.
   Eigen::VectorXd forces(const Eigen::VectorXd& u, const std::array<double, 3>& e,
@@ -135,12 +135,12 @@ class DisplacedNetwork {
   double residual = 0;
 
  private:
-  const State& s_;
+  const State<Disks>& s_;
   Eigen::PartialPivLU<Eigen::MatrixXd> solver_;
 };
 
 TEST(ModuliOfARealPacking, AgreeWithNonlinearForceBalance) {
-  const State s = real_packing();
+  const State<Disks> s = real_packing();
   const TangentModuli tangent = tangent_moduli(s.packing, NetworkLaw::rolling, s.law);
   DisplacedNetwork network(s);
   constexpr double kStrain = 1e-6;
@@ -159,7 +159,7 @@ TEST(ModuliOfARealPacking, AgreeWithNonlinearForceBalance) {
 }
 
 TEST(ModuliOfARealPacking, AgreeWithTheSolver) {
-  const State s = real_packing();
+  const State<Disks> s = real_packing();
   ASSERT_EQ(exact_rank(s.packing, NetworkLaw::rolling, false).mechanisms, 0);
   double residual = 0;
   for (const Vec2& f : s.memory.force) residual = std::max({residual, std::abs(f[0]), std::abs(f[1])});
@@ -171,8 +171,8 @@ TEST(ModuliOfARealPacking, AgreeWithTheSolver) {
   constexpr double kStrain = 1e-7;
   double geometric_error = 0;
   for (int axis = 0; axis < 2; ++axis) {
-    const State plus = relaxed(strained(s, axis, kStrain), 200000),
-                minus = relaxed(strained(s, axis, -kStrain), 200000);
+    const State<Disks> plus = relaxed(strained(s, axis, kStrain), 200000),
+                       minus = relaxed(strained(s, axis, -kStrain), 200000);
     ASSERT_EQ(plus.packing.links.size(), s.packing.links.size());
     ASSERT_EQ(minus.packing.links.size(), s.packing.links.size());
     const Vec2 up = static_stress(plus.packing), down = static_stress(minus.packing);

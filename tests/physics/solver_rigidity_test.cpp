@@ -5,15 +5,15 @@
 #include <random>
 
 #include "analysis/rigidity/rigidity_matrix.hpp"
+#include "dem/disks/engine.hpp"
 #include "dem/disks/sample.hpp"
-#include "dem/solver/solver.hpp"
 
 namespace isostat {
 namespace {
 
 // A jittered triangular lattice of overlapping disks with random velocities, springs at rest, no damping, no sliding.
-State lattice_state(std::uint64_t seed, bool rolling) {
-  State s;
+State<Disks> lattice_state(std::uint64_t seed, bool rolling) {
+  State<Disks> s;
   s.law.normal_stiffness = 1e4;
   s.law.tangential_stiffness = 7e3;
   s.law.friction = 1e6;
@@ -41,7 +41,7 @@ State lattice_state(std::uint64_t seed, bool rolling) {
 TEST(SolverAndAnalysis, SpringsStretchByGTimesVelocities) {
   for (const bool rolling : {false, true})
     for (const Isa isa : {Isa::scalar, best_isa()}) {
-      State s = lattice_state(3, rolling);
+      State<Disks> s = lattice_state(3, rolling);
       Solver solver(s, CellControl{}, {1, isa, false});
       solver.step();
       solver.snapshot(s);
@@ -74,7 +74,7 @@ TEST(SolverAndAnalysis, SpringsStretchByGTimesVelocities) {
 TEST(SolverAndAnalysis, BodyForcesAreTheTransposeTimesLinkForces) {
   for (const bool rolling : {false, true})
     for (const Isa isa : {Isa::scalar, best_isa()}) {
-      State s = lattice_state(4, rolling);
+      State<Disks> s = lattice_state(4, rolling);
       Solver solver(s, CellControl{}, {1, isa, false});
       solver.run(200);
       solver.snapshot(s);

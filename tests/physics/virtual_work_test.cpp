@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "analysis/rigidity/rigidity_matrix.hpp"
-#include "dem/solver/solver.hpp"
+#include "dem/disks/engine.hpp"
 #include "dem/state/link.hpp"
 #include "tests/support/disk_states.hpp"
 
@@ -57,10 +57,10 @@ Eigen::MatrixXd assemble(const Packing<2>& p) {
   return g;
 }
 
-State loaded_packing() {
+State<Disks> loaded_packing() {
   oracle::RandomDisks r;
   r.law = oracle::soft_law(), r.squeeze = 0.9, r.law.friction = 50, r.law.rolling_friction = 50;  // nothing slips
-  State s = random_state(r);
+  State<Disks> s = random_state(r);
   Solver solver(s, {});
   solver.run(80);
   solver.snapshot(s);
@@ -79,14 +79,14 @@ TEST(VirtualWork, TheAnalysisAssemblesTheMatrixOfThePaper) {
 }
 
 TEST(VirtualWork, LinkVelocitiesOfTheSolverAreGTimesU) {
-  State s = loaded_packing();
+  State<Disks> s = loaded_packing();
   ASSERT_GT(s.packing.links.size(), 40u);
   // A step so short that nothing moves: springs stretch by dt G U.
   const double dt = 1e-8;
   s.memory = {};
   s.time_step = dt;
   for (Link<2>& l : s.packing.links) l.tangential_force = l.moment = 0;
-  State after = s;
+  State<Disks> after = s;
   Solver solver(s, {});
   solver.step();
   solver.snapshot(after);
@@ -117,7 +117,7 @@ TEST(VirtualWork, LinkVelocitiesOfTheSolverAreGTimesU) {
 
 TEST(VirtualWork, BodyForcesOfTheSolverAreGTransposedTimesTheLinkForces) {
   for (const double damping : {0.0, 0.5}) {
-    State s = loaded_packing();
+    State<Disks> s = loaded_packing();
     s.memory = {};
     s.law.damping = damping;
     Solver solver(s, {});  // evaluates the forces of the state as it stands

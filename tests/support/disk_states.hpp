@@ -2,9 +2,9 @@
 #pragma once
 #include <cstdint>
 
+#include "dem/disks/disks.hpp"
 #include "dem/disks/sample.hpp"
 #include "dem/solver/random.hpp"
-#include "dem/state/state.hpp"
 
 namespace isostat::oracle {
 
@@ -31,7 +31,7 @@ inline LawScene soft_law() {
   return law;
 }
 
-inline State random_state(const RandomDisks& r) {
+inline State<Disks> random_state(const RandomDisks& r) {
   Scene scene;
   scene.grains.count = r.count;
   scene.grains.solid_fraction = r.solid_fraction;
@@ -39,7 +39,7 @@ inline State random_state(const RandomDisks& r) {
   scene.cell.aspect = r.aspect;
   scene.law = r.law;
   scene.step.fraction = r.step_fraction;
-  State s = initial_state(scene, r.seed);
+  State<Disks> s = initial_disks(scene, r.seed);
   Random random(r.seed + 1000);
   for (int a = 0; a < 2; ++a) s.packing.cell->length[a] *= r.squeeze;
   for (std::size_t k = 0; k < s.packing.bodies.size(); ++k) {
@@ -51,7 +51,7 @@ inline State random_state(const RandomDisks& r) {
   return s;
 }
 
-inline double total_mass(const State& s) {
+inline double total_mass(const State<Disks>& s) {
   double mass = 0;
   for (double m : s.packing.bodies.mass) mass += m;
   return mass;

@@ -45,9 +45,9 @@ std::vector<double> numbers(const T& x) {
 
 }  // namespace
 
-State random_state(std::uint64_t seed, int grains, int links) {
+State<Disks> random_state(std::uint64_t seed, int grains, int links) {
   Draw d(seed);
-  State s;
+  State<Disks> s;
   if (d.coin() || links > 0) s.packing.cell = PeriodicCell<2>{{{d.positive(), d.positive()}}};
   Bodies<2>& b = s.packing.bodies;
   for (int k = 0; k < grains; ++k) {
@@ -63,7 +63,7 @@ State random_state(std::uint64_t seed, int grains, int links) {
     l.kind = static_cast<LinkKind>(d.integer(0, 4));
     l.gap = d.real(), l.normal_force = d.real(), l.tangential_force = d.real(), l.moment = d.real();
     s.packing.links.push_back(l);
-    s.memory.pairs.push_back({l.i, l.j, l.shift, d.real(), d.real()});
+    s.memory.pairs.push_back({l.i, l.j, l.shift, {d.real(), d.real()}});
   }
   auto& law = s.law;
   for (double* x : {&law.normal_stiffness, &law.tangential_stiffness, &law.damping, &law.friction,
@@ -77,11 +77,11 @@ State random_state(std::uint64_t seed, int grains, int links) {
     for (int k = 0; k < grains; ++k) {
       s.memory.half_velocity.push_back(d.vec()), s.memory.half_spin.push_back(d.real());
       s.memory.force.push_back(d.vec()), s.memory.torque.push_back(d.real());
-      s.memory.outer_position.push_back(d.vec()), s.memory.inner_position.push_back(d.vec());
+      s.memory.lists.outer_position.push_back(d.vec()), s.memory.lists.inner_position.push_back(d.vec());
     }
-  s.memory.outer_length = d.vec(), s.memory.inner_length = d.vec();
-  s.memory.outer_skin = d.real(), s.memory.inner_skin = d.real();
-  s.memory.outer_travel = d.real(), s.memory.inner_travel = d.real();
+  s.memory.lists.outer_length = d.vec(), s.memory.lists.inner_length = d.vec();
+  s.memory.lists.outer_skin = d.real(), s.memory.lists.inner_skin = d.real();
+  s.memory.lists.outer_travel = d.real(), s.memory.lists.inner_travel = d.real();
   s.scene.stages.resize(static_cast<std::size_t>(d.integer(0, 3)));
   for (StageScene& stage : s.scene.stages) stage.pressure = d.positive(), stage.velocity = d.positive();
   s.scene.law.friction = d.positive(), s.scene.output.series = "a \"quoted\"\nname";
@@ -100,7 +100,7 @@ State random_state(std::uint64_t seed, int grains, int links) {
   return s;
 }
 
-void expect_equal(const State& a, const State& b) {
+void expect_equal(const State<Disks>& a, const State<Disks>& b) {
   ASSERT_EQ(a.packing.cell.has_value(), b.packing.cell.has_value());
   if (a.packing.cell) {
     EXPECT_SAME(packing.cell->length);
@@ -114,7 +114,7 @@ void expect_equal(const State& a, const State& b) {
   EXPECT_SAME(packing.bodies.inertia);
   ASSERT_EQ(a.packing.links.size(), b.packing.links.size());
   for (std::size_t k = 0; k < a.packing.links.size(); ++k) {
-    const auto row = [k](const State& s) {
+    const auto row = [k](const State<Disks>& s) {
       const Link<2>& l = s.packing.links[k];
       return std::make_tuple(l.i, l.j, l.shift, l.kind, l.gap, l.normal_force, l.tangential_force, l.moment);
     };
@@ -122,9 +122,9 @@ void expect_equal(const State& a, const State& b) {
   }
   ASSERT_EQ(a.memory.pairs.size(), b.memory.pairs.size());
   for (std::size_t k = 0; k < a.memory.pairs.size(); ++k) {
-    const auto row = [k](const State& s) {
-      const PairMemory& p = s.memory.pairs[k];
-      return std::make_tuple(p.i, p.j, p.shift, p.tangential_force, p.moment);
+    const auto row = [k](const State<Disks>& s) {
+      const PairMemory<DiskHistory>& p = s.memory.pairs[k];
+      return std::make_tuple(p.i, p.j, p.shift, p.history.tangential_force, p.history.moment);
     };
     EXPECT_EQ(row(a), row(b));
   }
@@ -147,14 +147,14 @@ void expect_equal(const State& a, const State& b) {
   EXPECT_SAME(memory.half_spin);
   EXPECT_SAME(memory.force);
   EXPECT_SAME(memory.torque);
-  EXPECT_SAME(memory.outer_position);
-  EXPECT_SAME(memory.inner_position);
-  EXPECT_SAME(memory.outer_length);
-  EXPECT_SAME(memory.inner_length);
-  EXPECT_SAME(memory.outer_skin);
-  EXPECT_SAME(memory.inner_skin);
-  EXPECT_SAME(memory.outer_travel);
-  EXPECT_SAME(memory.inner_travel);
+  EXPECT_SAME(memory.lists.outer_position);
+  EXPECT_SAME(memory.lists.inner_position);
+  EXPECT_SAME(memory.lists.outer_length);
+  EXPECT_SAME(memory.lists.inner_length);
+  EXPECT_SAME(memory.lists.outer_skin);
+  EXPECT_SAME(memory.lists.inner_skin);
+  EXPECT_SAME(memory.lists.outer_travel);
+  EXPECT_SAME(memory.lists.inner_travel);
   EXPECT_SAME(progress.stage);
   EXPECT_SAME(progress.start_time);
   EXPECT_SAME(progress.started);

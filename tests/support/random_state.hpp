@@ -2,13 +2,13 @@
 #pragma once
 #include <cstdint>
 
-#include "dem/state/state.hpp"
+#include "dem/disks/disks.hpp"
 
 namespace isostat {
 
-State random_state(std::uint64_t seed, int grains, int links);
+State<Disks> random_state(std::uint64_t seed, int grains, int links);
 
 // GoogleTest failures that name the members that differ.
-void expect_equal(const State& a, const State& b);
+void expect_equal(const State<Disks>& a, const State<Disks>& b);
 
 }  // namespace isostat

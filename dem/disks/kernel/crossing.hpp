@@ -10,8 +10,8 @@
 //   jump, force N throughout:  impulse N (part + 1/2), rule N           weight 1/2 + part
 // A spring stretches by the displacement while the contact exists, `part` of the step's.
 #pragma once
+#include "dem/disks/disk_law.hpp"
 #include "dem/disks/kernel/row.hpp"
-#include "dem/scene/scene.hpp"
 
 namespace isostat::kernel {
 
@@ -45,7 +45,7 @@ ISOSTAT_INLINE CrossingWeights<Real> crossing_weights(Real gap, Real receded, do
 }
 
 // 4 zeta^2 K dt, as eta = 2 zeta sqrt(K m_r).
-inline double crossing_braking(const LawParameters& p, double time_step) {
+inline double crossing_braking(const DiskLaw& p, double time_step) {
   return 4 * p.damping * p.damping * p.normal_stiffness * time_step;
 }
 

@@ -1,38 +1,11 @@
 #include "dem/disks/kernel/pair_force.hpp"
 
-#include <cstdlib>
-
 #include "dem/disks/kernel/contact_law.hpp"
 #include "dem/input_error.hpp"
 
 namespace isostat {
 
-Isa best_isa() {
-  Isa best = Isa::scalar;
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) best = Isa::avx2;
-    // clang 14 compiles the AVX-512 kernel, on libstdc++'s <experimental/simd>, to wrong forces
-    // (docs/measured/checks.md).
-#if !defined(__clang__)
-  if (best == Isa::avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw"))
-    best = Isa::avx512;
-#endif
-#endif
-  const char* asked = std::getenv("ISOSTAT_ISA");
-  if (!asked) return best;
-  for (Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512})
-    if (name(isa) == asked && isa <= best) return isa;
-  throw InputError("environment", 0, "ISOSTAT_ISA", asked,
-                   "one of scalar, avx2, avx512, up to what this machine and build have: " + std::string(name(best)));
-}
-
-std::string_view name(Isa isa) {
-  constexpr std::string_view names[] = {"scalar", "avx2", "avx512"};
-  return names[static_cast<int>(isa)];
-}
-
-LawComposition composition(const LawParameters& p) {
+LawComposition composition(const DiskLaw& p) {
   return {p.attraction > 0 ? law::AdhesionLinear::keyword : law::AdhesionNone::keyword,
           p.damping > 0 ? law::DampingCritical::keyword : law::DampingNone::keyword,
           p.friction > 0 ? law::FrictionCoulomb::keyword : law::FrictionNone::keyword,
@@ -53,7 +26,7 @@ std::string supported_compositions() {
   return list;
 }
 
-PairForceKernel select_kernel(const LawParameters& p, Tally tally, Isa isa) {
+PairForceKernel select_kernel(const DiskLaw& p, Tally tally, Isa isa) {
   const LawComposition wanted = composition(p);
   const kernel::KernelTable& table = isa == Isa::avx512 ? kernel::avx512_kernels()
                                      : isa == Isa::avx2 ? kernel::avx2_kernels()

@@ -6,20 +6,16 @@
 #include <string>
 #include <string_view>
 
-#include "dem/scene/scene.hpp"
+#include "dem/disks/disk_law.hpp"
+#include "dem/solver/isa.hpp"
 
 namespace isostat {
-
-enum class Isa { scalar, avx2, avx512 };  // batches of 1, 8 and 16 pairs
-Isa best_isa();                           // of this machine; the environment variable ISOSTAT_ISA may ask for less
-std::string_view name(Isa isa);
 
 // What a kernel sums up beside the forces. A fixed cell measures no stress; the energy ledger is paid for on request.
 enum class Tally { nothing, stress, energy };
 
-// Pairs in structure-of-arrays form. Groups begin and end at multiples of kPairBatch, the widest batch of any kernel
-// (two AVX-512 vectors); the rest is padded with a pair of two far bodies.
-inline constexpr std::size_t kPairBatch = 16;
+// Pairs in structure-of-arrays form, in batches of kPairBatch (dem/solver/neighbours.hpp); the rest of a group is
+// padded with a pair of two far bodies.
 struct PairArrays {
   const std::uint32_t* i = nullptr;  // offset of the body's row: kernel::RowOffset
   const std::uint32_t* j = nullptr;
@@ -36,7 +32,7 @@ struct PairForceInput {
   PairArrays pairs;
   std::size_t begin = 0, end = 0;
   bool images = false;  // the segment's pairs cross the edge of the cell
-  LawParameters law;
+  DiskLaw law;
   double time_step = 0;          // [T0]
   double flow_half[2] = {0, 0};  // Ldot_a / L_a at the half step [1/T0]; the affine part of a velocity is flow * r
   double flow_now[2] = {0, 0};   // the same, predicted to the full step
@@ -61,10 +57,10 @@ struct LawComposition {
   std::string_view adhesion, damping, friction, rolling;
   friend bool operator==(const LawComposition&, const LawComposition&) = default;
 };
-LawComposition composition(const LawParameters& law);
+LawComposition composition(const DiskLaw& law);
 
 // The kernel for a law; throws InputError with the list of supported compositions if there is none.
-PairForceKernel select_kernel(const LawParameters& law, Tally tally, Isa isa);
+PairForceKernel select_kernel(const DiskLaw& law, Tally tally, Isa isa);
 std::string supported_compositions();  // one a line
 
 }  // namespace isostat

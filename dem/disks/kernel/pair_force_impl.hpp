@@ -17,7 +17,7 @@ ISOSTAT_INLINE V load(const double* p) {
 template <class V, class Law, Tally kTally, bool kImages>
 PairForceTally pair_forces(const PairForceInput& input) {
   const PairForceInput in = input;  // a copy that no store can alias: its fields stay in registers
-  const LawParameters& law = in.law;
+  const DiskLaw& law = in.law;
   const V dt(in.time_step);
   const double braking = crossing_braking(law, in.time_step);
   V virial_x(0.0), virial_y(0.0), sliding(0.0), rolling(0.0);

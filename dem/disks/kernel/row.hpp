@@ -23,6 +23,13 @@
 namespace isostat::kernel {
 
 inline constexpr int kRowWidth = 8, kLoadWidth = 4;  // doubles
+// Their places by name, for those who write or read a row one number at a time.
+struct Slot {
+  enum : std::uint8_t { x, y, half_vx, half_vy, surface_speed, half_spin, vx, vy };
+};
+struct LoadSlot {
+  enum : std::uint8_t { fx, fy, moment_per_radius, moment };  // moment on the body = R A + B
+};
 
 // Pairs name bodies by the offset of their row in doubles: body k is at rows[8 k] and loads[4 k], addresses that cost
 // one load and no arithmetic.

@@ -22,7 +22,7 @@ ClusterSetup default_cluster_setup() {
 }
 
 ClusterResult double_triangle(const ClusterSetup& setup) {
-  const LawParameters law = resolve(setup.law);
+  const DiskLaw law = resolve(setup.law);
   const double side = 1 - law.attraction / law.normal_stiffness;  // h = -h0
   std::vector<Disk> disks = {{0, 0}, {side, 0}, {side / 2, side * std::sqrt(0.75)}, {}};
   if (setup.approach) {

@@ -5,8 +5,8 @@
 #pragma once
 #include <optional>
 
+#include "dem/disks/disks.hpp"
 #include "dem/scene/scene.hpp"
-#include "dem/state/state.hpp"
 
 namespace isostat::lab {
 
@@ -21,7 +21,7 @@ struct ClusterSetup {
 ClusterSetup default_cluster_setup();
 
 struct ClusterResult {
-  State state;           // links: the contacts
+  State<Disks> state;    // links: the contacts
   bool at_rest = false;  // residual forces below 1e-6 F0 and kinetic energy below 1e-12 F0 a
   double residual = 0;   // [F0]
   std::size_t contacts = 0;

@@ -6,9 +6,9 @@
 
 namespace isostat::lab {
 
-State few_bodies(const LawScene& law, const std::vector<Disk>& disks, double fraction) {
+State<Disks> few_bodies(const LawScene& law, const std::vector<Disk>& disks, double fraction) {
   constexpr double kMargin = 50;  // [a] around the disks
-  State state;
+  State<Disks> state;
   state.scene.law = law;
   state.scene.step.fraction = fraction;
   state.law = resolve(law);
@@ -32,7 +32,7 @@ State few_bodies(const LawScene& law, const std::vector<Disk>& disks, double fra
   return state;
 }
 
-Disk disk(const State& state, std::int64_t id) {
+Disk disk(const State<Disks>& state, std::int64_t id) {
   const Bodies<2>& b = state.packing.bodies;
   for (std::size_t k = 0; k < b.size(); ++k)
     if (b.id[k] == id)
@@ -40,7 +40,7 @@ Disk disk(const State& state, std::int64_t id) {
   return {};
 }
 
-const Link<2>* find_link(const State& state, std::int64_t id_i, std::int64_t id_j) {
+const Link<2>* find_link(const State<Disks>& state, std::int64_t id_i, std::int64_t id_j) {
   for (const Link<2>& l : state.packing.links) {
     const auto a = state.packing.bodies.id[static_cast<std::size_t>(l.i)];
     const auto b = state.packing.bodies.id[static_cast<std::size_t>(l.j)];

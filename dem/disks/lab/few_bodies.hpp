@@ -3,9 +3,9 @@
 #pragma once
 #include <vector>
 
+#include "dem/disks/disks.hpp"
+#include "dem/disks/engine.hpp"
 #include "dem/scene/scene.hpp"
-#include "dem/solver/solver.hpp"
-#include "dem/state/state.hpp"
 
 namespace isostat::lab {
 
@@ -15,12 +15,12 @@ struct Disk {
 };
 
 // An isolated set of disks (ids in the order given) in a cell much larger than it; dt = fraction * sqrt(m_max / K_N).
-State few_bodies(const LawScene& law, const std::vector<Disk>& disks, double fraction);
+State<Disks> few_bodies(const LawScene& law, const std::vector<Disk>& disks, double fraction);
 
 // The disk with that id, whatever the storage order.
-Disk disk(const State& state, std::int64_t id);
+Disk disk(const State<Disks>& state, std::int64_t id);
 
 // The link between two ids, or nullptr.
-const Link<2>* find_link(const State& state, std::int64_t id_i, std::int64_t id_j);
+const Link<2>* find_link(const State<Disks>& state, std::int64_t id_i, std::int64_t id_j);
 
 }  // namespace isostat::lab

@@ -12,8 +12,8 @@ namespace isostat::lab {
 namespace {
 
 // Runs until the disks have touched and parted again, or for at most `time` [T0].
-State collide(const LawScene& law, const std::vector<Disk>& disks, double fraction, double time) {
-  State state = few_bodies(law, disks, fraction);
+State<Disks> collide(const LawScene& law, const std::vector<Disk>& disks, double fraction, double time) {
+  State<Disks> state = few_bodies(law, disks, fraction);
   Solver solver(state, {});
   bool touched = false;
   while (solver.time() < time) {
@@ -74,7 +74,7 @@ class HeldPair {
   }
 
  private:
-  LawParameters law_;
+  DiskLaw law_;
   PairForceKernel kernel_ = nullptr;
   AlignedVector<double> rows_, loads_;
   alignas(64) kernel::RowOffset i_[kPairBatch], j_[kPairBatch];
@@ -116,7 +116,7 @@ Restitution restitution(const LawScene& given, double fraction, double speed, in
   double low = INFINITY, high = -INFINITY;
   for (int k = 0; k < phases; ++k) {
     const double dt = fraction / std::sqrt(law.normal_stiffness);
-    const State end = collide(law, approach(dt, speed, 0, (k + 0.5) / phases), fraction, collision_time(law));
+    const State<Disks> end = collide(law, approach(dt, speed, 0, (k + 0.5) / phases), fraction, collision_time(law));
     const double e = (disk(end, 1).vx - disk(end, 0).vx) / speed;
     r.mean += e / phases;
     low = std::min(low, e), high = std::max(high, e);
@@ -130,7 +130,7 @@ PullOff pull_off(const LawScene& law, double fraction) {
   const double v_star = std::sqrt(law.attraction * law.attraction_range);
   p.exact = std::numbers::sqrt2 * v_star;
   auto separates = [&](double speed) {
-    State state = few_bodies(law, {{0, 0, 0.5, -speed / 2, 0, 0}, {1, 0, 0.5, speed / 2, 0, 0}}, fraction);
+    State<Disks> state = few_bodies(law, {{0, 0, 0.5, -speed / 2, 0, 0}, {1, 0, 0.5, speed / 2, 0, 0}}, fraction);
     Solver solver(state, {});
     for (const double end = 20 * law.attraction_range / v_star; solver.time() < end; solver.step()) {
     }
@@ -155,7 +155,7 @@ ObliqueImpact oblique_impact(const LawScene& given, double fraction, double norm
   double low = INFINITY, high = -INFINITY;
   for (int k = 0; k < phases; ++k) {
     const double dt = fraction / std::sqrt(law.normal_stiffness);
-    const State end =
+    const State<Disks> end =
         collide(law, approach(dt, normal_speed, tangential_speed, (k + 0.5) / phases), fraction, collision_time(law));
     const Disk one = disk(end, 1);
     o.normal_velocity += one.vx / phases, o.tangential_velocity += one.vy / phases, o.spin += one.spin / phases;
@@ -167,7 +167,7 @@ ObliqueImpact oblique_impact(const LawScene& given, double fraction, double norm
 }
 
 std::vector<LawPoint> normal_curve(const LawScene& scene, int points) {
-  const LawParameters law = resolve(scene);
+  const DiskLaw law = resolve(scene);
   const double deflection = (law.attraction > 0 ? law.attraction : 1.0) / law.normal_stiffness;
   const double low = -3 * deflection, high = law.attraction > 0 ? 1.5 * law.attraction_range : 3 * deflection;
   std::vector<LawPoint> curve;
@@ -182,14 +182,14 @@ std::vector<LawPoint> normal_curve(const LawScene& scene, int points) {
 }
 
 LoadCycle tangential_cycle(const LawScene& scene, double overlap, double amplitude, int points) {
-  const LawParameters law = resolve(scene);
+  const DiskLaw law = resolve(scene);
   HeldPair pair(scene, overlap);
   return cycle(law.tangential_stiffness, law.friction * law.normal_stiffness * overlap, amplitude, points,
                [&](double du) { return pair.move(du, 0).tangential; });
 }
 
 LoadCycle rolling_cycle(const LawScene& scene, double overlap, double amplitude, int points) {
-  const LawParameters law = resolve(scene);
+  const DiskLaw law = resolve(scene);
   HeldPair pair(scene, overlap);
   return cycle(law.rolling_stiffness, law.rolling_friction * law.normal_stiffness * overlap, amplitude, points,
                [&](double angle) { return pair.move(0, angle).moment; });

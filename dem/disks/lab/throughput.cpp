@@ -1,8 +1,8 @@
 #include "dem/disks/lab/throughput.hpp"
 
 #include <algorithm>
-#include <chrono>
-#include <ctime>
+
+#include "dem/solver/clocks.hpp"
 
 #include "dem/disks/sample.hpp"
 #include "dem/state/balance.hpp"
@@ -12,16 +12,10 @@ namespace {
 
 constexpr double kPilotGrainSteps = 4e6, kDefaultGrainSteps = 2e8;
 
-double cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
 }  // namespace
 
 Throughput measure_throughput(Packing<2> packing, const ThroughputSetup& setup) {
-  State state;
+  State<Disks> state;
   state.scene.law.friction = setup.friction ? 0.5 : 0.0;
   state.scene.law.rolling = setup.friction && setup.rolling;
   state.scene.law.attraction = setup.cohesion ? 1.0 : 0.0;
@@ -36,7 +30,7 @@ Throughput measure_throughput(Packing<2> packing, const ThroughputSetup& setup) 
   options.threads = setup.threads;
   CellControl control;
   if (setup.free_cell) {
-    State probe = state;
+    State<Disks> probe = state;
     Solver(state, {}, options).snapshot(probe);
     const StressTensor stress = measured_stress(probe.packing);
     control.stress = isotropic(0.5 * (stress.xx + stress.yy));
@@ -52,15 +46,15 @@ Throughput measure_throughput(Packing<2> packing, const ThroughputSetup& setup) 
   t.steps =
       setup.steps > 0 ? setup.steps : std::max<std::int64_t>(20, static_cast<std::int64_t>(kDefaultGrainSteps / n));
   const StepTimes before = solver.times();
-  const double cpu = cpu_seconds();
-  const auto wall = std::chrono::steady_clock::now();
+  const double cpu = cpu_seconds(setup.threads);
+  const double wall = wall_seconds();
   solver.run(t.steps);
-  t.cpu_seconds = cpu_seconds() - cpu;
-  t.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
+  t.cpu_seconds = cpu_seconds(setup.threads) - cpu;
+  t.wall_seconds = wall_seconds() - wall;
   t.grains = static_cast<std::int64_t>(state.packing.bodies.size());
   t.grain_steps_per_cpu_second = n * static_cast<double>(t.steps) / t.cpu_seconds;
   t.grain_steps_per_wall_second = n * static_cast<double>(t.steps) / t.wall_seconds;
-  t.pairs_per_grain = static_cast<double>(solver.lists().inner_pairs()) / n;
+  t.pairs_per_grain = static_cast<double>(solver.engine().lists().inner_pairs()) / n;
   t.times = solver.times();
   for (std::size_t k = 0; k < t.times.seconds.size(); ++k) t.times.seconds[k] -= before.seconds[k];
   t.isa = name(options.isa);

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "dem/solver/solver.hpp"
+#include "dem/disks/engine.hpp"
 #include "dem/state/packing.hpp"
 
 namespace isostat::lab {

@@ -3,7 +3,7 @@
 #include <experimental/simd>
 #include <string_view>
 
-#include "dem/scene/scene.hpp"
+#include "dem/disks/disk_law.hpp"
 
 namespace isostat::law {
 namespace stdx = std::experimental;
@@ -18,7 +18,7 @@ struct AdhesionLinear {
   static constexpr std::string_view keyword = "linear";
   static constexpr bool acts = true;
   template <class Real>
-  static Real force(const LawParameters& p, Real gap) {
+  static Real force(const DiskLaw& p, Real gap) {
     const Real reach = Real(1.0) - max(gap, Real(0.0)) * Real(1.0 / p.attraction_range);
     return Real(-p.attraction) * max(reach, Real(0.0));
   }

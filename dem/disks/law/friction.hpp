@@ -6,7 +6,7 @@
 #include <experimental/simd>
 #include <string_view>
 
-#include "dem/scene/scene.hpp"
+#include "dem/disks/disk_law.hpp"
 #include "dem/state/link.hpp"
 
 namespace isostat::law {
@@ -21,8 +21,8 @@ struct FrictionNone {
 struct FrictionCoulomb {
   static constexpr std::string_view keyword = "coulomb";
   static constexpr bool acts = true;
-  static double stiffness(const LawParameters& p) { return p.tangential_stiffness; }
-  static double coefficient(const LawParameters& p) { return p.friction; }
+  static double stiffness(const DiskLaw& p) { return p.tangential_stiffness; }
+  static double coefficient(const DiskLaw& p) { return p.friction; }
 };
 
 struct RollingNone {
@@ -34,15 +34,15 @@ struct RollingNone {
 struct RollingElastoplastic {
   static constexpr std::string_view keyword = "elastoplastic";
   static constexpr bool acts = true;
-  static double stiffness(const LawParameters& p) { return p.rolling_stiffness; }
-  static double coefficient(const LawParameters& p) { return p.rolling_friction; }
+  static double stiffness(const DiskLaw& p) { return p.rolling_stiffness; }
+  static double coefficient(const DiskLaw& p) { return p.rolling_friction; }
 };
 
 // The spring after a displacement: trial force, clamped to the limit. `slipped` is the work done on the slip, times 2K:
 // the mean force over the step times the part of the displacement that the spring did not take. (The elastic energy
 // that the clamp takes away, (trial^2 - clamped^2) / 2K, exceeds it by a term of first order in the step.)
 template <class Axis, class Real>
-Real spring(const LawParameters& p, Real force, Real displacement, Real repulsion, Real* slipped = nullptr) {
+Real spring(const DiskLaw& p, Real force, Real displacement, Real repulsion, Real* slipped = nullptr) {
   const Real limit = Real(Axis::coefficient(p)) * repulsion;
   const Real trial = mul_add<Real>(Real(-Axis::stiffness(p)), displacement, force);
   const Real clamped = min(max(trial, -limit), limit);

@@ -6,7 +6,7 @@
 #pragma once
 #include <experimental/simd>
 
-#include "dem/scene/scene.hpp"
+#include "dem/disks/disk_law.hpp"
 
 namespace isostat::law {
 namespace stdx = std::experimental;
@@ -14,7 +14,7 @@ namespace stdx = std::experimental;
 // N_e = -K_N h for h < 0 (Gilabert 2007, Sec. II.B). K_N [F0/a].
 struct NormalLinear {
   template <class Real>
-  static Real repulsion(const LawParameters& p, Real gap) {
+  static Real repulsion(const DiskLaw& p, Real gap) {
     return max(Real(-p.normal_stiffness) * gap, Real(0.0));
   }
 };

@@ -15,12 +15,12 @@ constexpr double kDeflection = 1 / kStiffness;  // h0 [a] of a contact that carr
 constexpr StepTolerance kTolerance{1e-7, 0};    // [F0]
 
 // Two cohesive disks on a line, `gap` [a] apart, at rest.
-State pair(double gap) {
+State<Disks> pair(double gap) {
   Scene scene;
   scene.grains.count = 2;
   scene.law.normal_stiffness = kStiffness;
   scene.law.attraction = 1, scene.law.attraction_range = 1e-3;
-  State s = initial_state(scene, 1);
+  State<Disks> s = initial_disks(scene, 1);
   Bodies<2>& b = s.packing.bodies;
   s.packing.cell->length = {{8, 8}};
   b.position = {{{3, 4}}, {{3 + b.radius[0] + b.radius[1] + gap, 4}}};
@@ -28,11 +28,11 @@ State pair(double gap) {
   b.spin = {0, 0};
   return s;
 }
-double gap(const State& s) {
+double gap(const State<Disks>& s) {
   const Bodies<2>& b = s.packing.bodies;
   return norm(b.position[1] - b.position[0]) - b.radius[0] - b.radius[1];
 }
-Vec2 momentum(const State& s) {
+Vec2 momentum(const State<Disks>& s) {
   const Bodies<2>& b = s.packing.bodies;
   return b.mass[0] * b.velocity[0] + b.mass[1] * b.velocity[1];
 }
@@ -40,7 +40,7 @@ Vec2 momentum(const State& s) {
 // In each step the branch vector turns by .06: a straight guess stretches the contact by 100 h0, a step along the last
 // chord still by h0, and attraction would take over.
 TEST(ImplicitStep, ASpinningPairStaysAPair) {
-  State s = pair(-kDeflection);
+  State<Disks> s = pair(-kDeflection);
   Bodies<2>& b = s.packing.bodies;
   const double spin = 0.3, dt = 0.2, drift = 0.01;
   const int steps = 20;
@@ -72,7 +72,7 @@ TEST(ImplicitStep, ASpinningPairStaysAPair) {
 }
 
 TEST(ImplicitStep, ForeseesACapture) {
-  State s = pair(0.01);
+  State<Disks> s = pair(0.01);
   const double speed = 0.02;
   s.packing.bodies.velocity[0] = {{speed, 0}};
   const FinishingRequest request;
@@ -91,7 +91,7 @@ TEST(ImplicitStep, ForeseesACapture) {
 
 // The pattern of the tangent holds the links that act; a pair that comes to act is added.
 TEST(ImplicitStep, ThePatternGrowsWithTheLinks) {
-  State s = pair(1.1e-3);
+  State<Disks> s = pair(1.1e-3);
   s.packing.bodies.velocity[0] = {{0.02, 0}};
   const FinishingRequest request;
   SettlingNetwork network(s, request);

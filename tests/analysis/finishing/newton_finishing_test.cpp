@@ -8,13 +8,14 @@
 
 #include "analysis/finishing/newton_finishing.hpp"
 #include "dem/disks/certificate.hpp"
+#include "dem/disks/energy.hpp"
+#include "dem/disks/engine.hpp"
+#include "dem/disks/physical_hash.hpp"
 #include "dem/disks/sample.hpp"
 #include "dem/files/state_file.hpp"
 #include "dem/input_error.hpp"
 #include "dem/run/stages.hpp"
 #include "dem/state/balance.hpp"
-#include "dem/state/energy.hpp"
-#include "dem/state/physical_hash.hpp"
 #include "tests/support/disk_states.hpp"
 
 namespace isostat {
@@ -38,7 +39,7 @@ Scene scene_of(Finish method, bool rolling = true, double attraction = 1) {
 
 constexpr int kUnloadings = 20;
 
-FinishingRequest request_for(const State& s, double stress) {
+FinishingRequest request_for(const State<Disks>& s, double stress) {
   return {{stress, stress}, s.scene.cell.inertia * oracle::total_mass(s)};
 }
 
@@ -50,16 +51,16 @@ SolverOptions same_everywhere() {
 }
 
 // A compression stopped while the packing still rings.
-State ringing(const Scene& scene, std::uint64_t seed, double time) {
-  State s = initial_state(scene, seed);
-  RunHooks hooks;
+State<Disks> ringing(const Scene& scene, std::uint64_t seed, double time) {
+  State<Disks> s = initial_disks(scene, seed);
+  RunHooks<Disks> hooks;
   hooks.max_time = time;
   run_stages(s, same_everywhere(), hooks);
   return s;
 }
 
 // Marched on by the solver under a drag, to forces far below the tolerance: the slow, obvious way to rest.
-State marched_to_rest(State s, double stress, double time) {
+State<Disks> marched_to_rest(State<Disks> s, double stress, double time) {
   CellControl c;
   c.stress = isotropic(stress), c.max_strain_rate = 0.2;
   c.inertia = s.scene.cell.inertia * oracle::total_mass(s);
@@ -71,7 +72,7 @@ State marched_to_rest(State s, double stress, double time) {
 }
 
 using Name = std::tuple<std::int64_t, std::int64_t>;  // ids; no two images of a pair in these packings
-std::map<Name, Link<2>> by_ids(const State& s) {
+std::map<Name, Link<2>> by_ids(const State<Disks>& s) {
   std::map<Name, Link<2>> links;
   for (const Link<2>& l : s.packing.links) {
     const auto i = s.packing.bodies.id[static_cast<std::size_t>(l.i)];
@@ -88,9 +89,9 @@ TEST(NewtonFinishing, EndsWhereTheSolverEnds) {
     for (const double attraction : {1.0, 0.0}) {
       SCOPED_TRACE(std::string(rolling ? "rolling" : "friction") + (attraction > 0 ? ", cohesion" : ""));
       const double stress = attraction > 0 ? kPressure : 1.0;
-      const State start = ringing(scene_of(Finish::none, rolling, attraction), 3, 60);
+      const State<Disks> start = ringing(scene_of(Finish::none, rolling, attraction), 3, 60);
       ASSERT_GT(start.certificate.max_force, 1e-6);
-      State s = start;
+      State<Disks> s = start;
       const FinishingReport report = NewtonFinishing().settle(s, request_for(s, stress));
       ASSERT_TRUE(report.settled) << report.reason;
       EXPECT_EQ(report.moving, 0);
@@ -125,7 +126,7 @@ TEST(NewtonFinishing, EndsWhereTheSolverEnds) {
         EXPECT_EQ(fast.size(), slow.size());
       }
       // The solver takes it for rest too: nothing happens in a few T0.
-      const State later = marched_to_rest(s, stress, 5);
+      const State<Disks> later = marched_to_rest(s, stress, 5);
       EXPECT_LT(evaluate_certificate(later.packing, s.law, isotropic(stress), s.scene.equilibrium).max_force, 1e-9);
     }
 }
@@ -133,10 +134,10 @@ TEST(NewtonFinishing, EndsWhereTheSolverEnds) {
 // The load is taken back by two fifths, little by little so that nothing rings: contacts open, and the springs of the
 // others know where they came from.
 TEST(NewtonFinishing, ContactsOpenWhileItSettles) {
-  State fast = ringing(scene_of(Finish::none, false, 0.0), 3, 60);
+  State<Disks> fast = ringing(scene_of(Finish::none, false, 0.0), 3, 60);
   ASSERT_TRUE(NewtonFinishing().settle(fast, request_for(fast, 1.0)).settled);
   const auto before = by_ids(fast);
-  State slow = fast;
+  State<Disks> slow = fast;
   for (int k = 1; k <= kUnloadings; ++k) {
     const double stress = 1 - 0.4 * k / kUnloadings;
     fast.imposed_stress = isotropic(stress);
@@ -164,13 +165,13 @@ TEST(NewtonFinishing, LeavesAStateItCannotSettleAsItIs) {
   // A fast gas: nothing takes its energy, and it goes so far in a step that explicit ones are as good.
   Scene scene = scene_of(Finish::none, false, 0);
   scene.stages[0].pressure = std::nullopt;
-  scene.stages[0].until = "time", scene.stages[0].time = 1;
-  State start = initial_state(scene, 3);
+  scene.stages[0].until = Until::time, scene.stages[0].time = 1;
+  State<Disks> start = initial_disks(scene, 3);
   for (std::size_t k = 0; k < start.packing.bodies.size(); ++k)
     start.packing.bodies.velocity[k] = {{8 * std::cos(static_cast<double>(k)), 8 * std::sin(static_cast<double>(k))}};
   start.law.damping = 0;
   run_stages(start, {}, {});
-  State s = start;
+  State<Disks> s = start;
   const FinishingReport report = NewtonFinishing().settle(s, {{}, 1});
   EXPECT_FALSE(report.settled);
   EXPECT_FALSE(report.reason.empty());
@@ -179,7 +180,7 @@ TEST(NewtonFinishing, LeavesAStateItCannotSettleAsItIs) {
 
 // Grains apart in a cell under a stress below the tolerance: by the criteria an equilibrium, but nothing ever stops it.
 TEST(NewtonFinishing, CallsAFloppyModeThatStillMovesNoEquilibrium) {
-  State s = initial_state(scene_of(Finish::none), 3);
+  State<Disks> s = initial_disks(scene_of(Finish::none), 3);
   ASSERT_TRUE(s.packing.links.empty());
   s.imposed_stress = isotropic(5e-5);
   const FinishingReport report = NewtonFinishing().settle(s, request_for(s, 5e-5));
@@ -196,7 +197,7 @@ TEST(NewtonFinishing, StopsJustBeforeACapture) {
   Scene scene = scene_of(Finish::none);
   scene.grains.count = 2;
   scene.stages[0].pressure = std::nullopt;
-  State s = initial_state(scene, 1);
+  State<Disks> s = initial_disks(scene, 1);
   Bodies<2>& b = s.packing.bodies;
   s.packing.cell->length = {{8, 8}};
   const double sum = b.radius[0] + b.radius[1], gap = 0.1, speed = 1e-3;
@@ -213,7 +214,7 @@ TEST(NewtonFinishing, StopsJustBeforeACapture) {
   EXPECT_NEAR(b.velocity[0][0], speed, 1e-9 * speed);
   EXPECT_NEAR(b.velocity[1][0], 0, 1e-9 * speed);
   // At once if there is nothing to skip: then the state stays as it is.
-  const State before = s;
+  const State<Disks> before = s;
   const FinishingReport again = NewtonFinishing().settle(s, {});
   EXPECT_TRUE(again.capture);
   EXPECT_TRUE(again.advanced || encode_state(s) == encode_state(before));
@@ -221,8 +222,8 @@ TEST(NewtonFinishing, StopsJustBeforeACapture) {
 
 // The storage order is the solver's business: turned around, the same bits come out.
 TEST(NewtonFinishing, DoesNotSeeTheStorageOrder) {
-  State a = ringing(scene_of(Finish::none), 4, 60);
-  State b = a;
+  State<Disks> a = ringing(scene_of(Finish::none), 4, 60);
+  State<Disks> b = a;
   const auto n = static_cast<std::int32_t>(a.packing.bodies.size());
   const Bodies<2>& from = a.packing.bodies;
   Bodies<2>& to = b.packing.bodies;
@@ -246,8 +247,8 @@ TEST(NewtonFinishing, DoesNotSeeTheStorageOrder) {
 }
 
 TEST(NewtonFinishing, OneEdgeMayBeFixed) {
-  const State start = ringing(scene_of(Finish::none), 3, 60);
-  State s = start;
+  const State<Disks> start = ringing(scene_of(Finish::none), 3, 60);
+  State<Disks> s = start;
   FinishingRequest q = request_for(s, kPressure);
   q.stress = {std::nullopt, kPressure};
   const FinishingReport report = NewtonFinishing().settle(s, q);
@@ -259,7 +260,7 @@ TEST(NewtonFinishing, OneEdgeMayBeFixed) {
 
 TEST(NewtonFinishing, EndsAStageOfARun) {
   const Scene scene = scene_of(Finish::newton);
-  State s = initial_state(scene, 5);
+  State<Disks> s = initial_disks(scene, 5);
   NewtonFinishing finisher;
   const RunOutcome outcome = run_stages(s, {}, {}, &finisher);
   ASSERT_TRUE(outcome.all_met());
@@ -272,11 +273,11 @@ TEST(NewtonFinishing, EndsAStageOfARun) {
 // The criteria hold at the first look at a stage that begins near rest, at forces just below the tolerance.
 TEST(NewtonFinishing, EndsAStageThatBeginsWithinTheCriteria) {
   Scene scene = scene_of(Finish::drag);
-  State loose = initial_state(scene, 5);
+  State<Disks> loose = initial_disks(scene, 5);
   ASSERT_TRUE(run_stages(loose, {}, {}).all_met());
   ASSERT_GT(loose.certificate.max_force, 1e-7);
   scene.finish.method = Finish::newton;
-  State s = loose;
+  State<Disks> s = loose;
   s.scene = scene, s.progress = {};
   NewtonFinishing finisher;
   const RunOutcome outcome = run_stages(s, {}, {}, &finisher);
@@ -288,7 +289,7 @@ TEST(NewtonFinishing, EndsAStageThatBeginsWithinTheCriteria) {
 TEST(NewtonFinishing, AStageThatEndsWithAFloppyModeInMotionSaysSo) {
   Scene scene = scene_of(Finish::newton);
   scene.stages[0].pressure = 5e-5;  // below the tolerance: grains apart meet the criteria
-  State s = initial_state(scene, 3);
+  State<Disks> s = initial_disks(scene, 3);
   ASSERT_TRUE(s.packing.links.empty());
   NewtonFinishing finisher;
   const RunOutcome outcome = run_stages(s, {}, {}, &finisher);
@@ -299,15 +300,15 @@ TEST(NewtonFinishing, AStageThatEndsWithAFloppyModeInMotionSaysSo) {
 }
 
 TEST(NewtonFinishing, ARunWithoutASolverIsRefused) {
-  State s = initial_state(scene_of(Finish::newton), 5);
+  State<Disks> s = initial_disks(scene_of(Finish::newton), 5);
   EXPECT_THROW(run_stages(s, {}, {}), InputError);
 }
 
 // Refuses so many times before it does its work: the run must go on by itself meanwhile.
-class Reluctant : public StaticSolver {
+class Reluctant : public StaticSolver<Disks> {
  public:
   explicit Reluctant(int refusals) : left_(refusals) {}
-  FinishingReport settle(State& state, const FinishingRequest& request) override {
+  FinishingReport settle(State<Disks>& state, const FinishingRequest& request) override {
     times.push_back(state.time);
     if (left_-- > 0) return {};
     return finisher_.settle(state, request);
@@ -324,23 +325,23 @@ TEST(NewtonFinishing, AnInterruptedRunGoesOnAsIfItHadNotBeen) {
   Scene scene = scene_of(Finish::newton);
   scene.equilibrium.force = 1e-9, scene.equilibrium.pressure = 1e-9;  // out of reach for the bare run
   scene.finish.quiet_time = 2;
-  State straight = initial_state(scene, 6);
+  State<Disks> straight = initial_disks(scene, 6);
   Reluctant finisher(3);
   ASSERT_TRUE(run_stages(straight, {}, {}, &finisher).all_met());
   ASSERT_EQ(finisher.times.size(), 4u);
   for (std::size_t k = 0; k + 2 < finisher.times.size(); ++k)
     EXPECT_GE(finisher.times[k + 2] - finisher.times[k + 1], finisher.times[k + 1] - finisher.times[k]);
 
-  State s = initial_state(scene, 6);
+  State<Disks> s = initial_disks(scene, 6);
   Reluctant resumed(3);
   int interruptions = 0;
   for (bool done = false; !done && interruptions < 1000;) {
     int polls = 0;
-    RunHooks hooks;
+    RunHooks<Disks> hooks;
     // More patient each time: an interrupted solve is begun anew.
     hooks.interrupted = [&] { return ++polls > 3 + interruptions / 4; };
     done = !run_stages(s, {}, hooks, &resumed).interrupted;
-    if (!done) s = decode_state(encode_state(s), "memory").state, ++interruptions;
+    if (!done) s = std::get<State<Disks>>(decode_state(encode_state(s), "memory").state), ++interruptions;
   }
   EXPECT_GT(interruptions, 5);
   EXPECT_GT(resumed.times.size(), finisher.times.size()) << "no solve was interrupted";

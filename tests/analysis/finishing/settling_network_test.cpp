@@ -9,8 +9,8 @@
 #include "analysis/finishing/repeated_cholesky.hpp"
 #include "analysis/finishing/settling_network.hpp"
 #include "dem/disks/certificate.hpp"
+#include "dem/disks/engine.hpp"
 #include "dem/solver/random.hpp"
-#include "dem/solver/solver.hpp"
 #include "dem/state/balance.hpp"
 #include "tests/support/disk_states.hpp"
 
@@ -20,12 +20,12 @@ namespace {
 using Vector = std::vector<double>;
 
 // Overlapping disks with stretched springs, a few distant links.
-State stretched_state(double friction, std::uint64_t seed) {
+State<Disks> stretched_state(double friction, std::uint64_t seed) {
   oracle::RandomDisks r;
   r.law = oracle::soft_law();
   r.law.friction = friction, r.law.rolling_friction = 0.1 * friction;
   r.seed = seed, r.speed = 0.5;
-  State s = oracle::random_state(r);
+  State<Disks> s = oracle::random_state(r);
   Solver solver(s, CellControl{}, {});
   solver.run(20);
   solver.snapshot(s);
@@ -50,11 +50,11 @@ double length(const Vector& v) {
 }
 
 TEST(SettlingNetwork, ForcesAreThoseOfTheCertificate) {
-  const State s = stretched_state(0.3, 4);
+  const State<Disks> s = stretched_state(0.3, 4);
   SettlingNetwork network(s, request(true));
   network.forces(Vector(network.size(), 0.0));
   const SettlingNetwork::Balance b = network.balance();
-  State still = s;
+  State<Disks> still = s;
   for (Vec2& v : still.packing.bodies.velocity) v = {};
   const Certificate c = evaluate_certificate(still.packing, s.law, isotropic(3.0), s.scene.equilibrium);
   ASSERT_GT(c.max_force, 1);

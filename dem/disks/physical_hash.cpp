@@ -1,4 +1,4 @@
-#include "dem/state/physical_hash.hpp"
+#include "dem/disks/physical_hash.hpp"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -62,7 +62,7 @@ CanonicalLink canonical(const Link<2>& l, const std::vector<std::int64_t>& id) {
 
 }  // namespace
 
-std::string physical_hash(const State& state) {
+std::string physical_hash(const State<Disks>& state) {
   Digest digest;
   digest.add(state.time);
   const auto& [kn, kt, zeta, mu, mu_r, kr, f0, d0] = state.law;

@@ -3,12 +3,12 @@
 #pragma once
 #include <string>
 
-#include "dem/state/state.hpp"
+#include "dem/disks/disks.hpp"
 
 namespace isostat {
 
 // XXH3-128, 32 hexadecimal digits, over time, law, cell and its rate, bodies in the order of their ids, and links with
 // the smaller id first in the order of ids and shift; -0 counts as 0.
-std::string physical_hash(const State& state);
+std::string physical_hash(const State<Disks>& state);
 
 }  // namespace isostat

@@ -1,0 +1,251 @@
+#include "dem/disks/engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dem/disks/at_rest.hpp"
+#include "dem/run_error.hpp"
+#include "dem/solver/dispatch.hpp"
+#include "dem/solver/neighbours_impl.hpp"
+
+namespace isostat {
+namespace {
+
+using kernel::LoadSlot;
+using kernel::Slot;
+
+constexpr double kMostMove = 0.1;     // [smallest diameter] in one step: beyond, the run has blown up
+constexpr double kMostOverlap = 0.5;  // [R_i + R_j]
+
+}  // namespace
+
+template class NeighbourLists<DiskPairs>;
+
+DiskEngine::DiskEngine(const State<Disks>& state, const CellControl& control, const SolverOptions& options)
+    : law_(state.law),
+      dt_(state.time_step),
+      ledger_(state.ledger),
+      begins_(state.memory.half_velocity.empty()),
+      energies_(options.energies),
+      rotates_(law_.friction > 0 || law_.rolling_friction > 0),
+      force_kernel_(select_kernel(law_,
+                                  options.energies  ? Tally::energy
+                                  : control.moves() ? Tally::stress
+                                                    : Tally::nothing,
+                                  options.isa)),
+      motion_kernel_(select_motion({rotates_, control.moves()})),
+      team_(std::min(options.threads, Lists::chunk_count(state.packing.bodies.size()))),
+      lists_(state.packing.bodies.size(), law_.attraction_range, DiskPairs(law_)) {
+  load_bodies(state);
+  prediction_ = velocity_prediction(law_, smallest_mass_, dt_);
+}
+
+void DiskEngine::load_bodies(const State<Disks>& state) {
+  const Bodies<2>& b = state.packing.bodies;
+  const DiskMemory& m = state.memory;
+  bodies_.resize(b.size());
+  smallest_diameter_ = smallest_mass_ = INFINITY;
+  for (std::size_t k = 0; k < b.size(); ++k) {
+    const Vec2 u = begins_ ? b.velocity[k] : m.half_velocity[k];
+    const double w = begins_ ? b.spin[k] : m.half_spin[k];
+    double* row = bodies_.row(k);
+    bodies_.place(k, b.position[k]);
+    row[Slot::half_vx] = u[0], row[Slot::half_vy] = u[1];
+    row[Slot::surface_speed] = b.radius[k] * w, row[Slot::half_spin] = w;
+    row[Slot::vx] = b.velocity[k][0], row[Slot::vy] = b.velocity[k][1];
+    bodies_.id[k] = b.id[k];
+    bodies_.constants[k] = {1 / b.mass[k], 1 / b.inertia[k], b.radius[k], b.mass[k]};
+    bodies_.inertia[k] = b.inertia[k];
+    smallest_diameter_ = std::min(smallest_diameter_, 2 * b.radius[k]);
+    smallest_mass_ = std::min(smallest_mass_, b.mass[k]);
+    largest_diameter_ = std::max(largest_diameter_, 2 * b.radius[k]);
+    if (!begins_) {
+      double* load = bodies_.load(k);
+      load[LoadSlot::fx] = m.force[k][0], load[LoadSlot::fy] = m.force[k][1], load[LoadSlot::moment] = m.torque[k];
+    }
+  }
+  if (!begins_) return lists_.restore(bodies_, m.lists, m.pairs);
+  std::vector<PairMemory<DiskHistory>> springs;
+  for (const Link<2>& l : state.packing.links)
+    if (is_contact(l.kind)) {
+      const bool swap = l.i > l.j;
+      springs.push_back({swap ? l.j : l.i,
+                         swap ? l.i : l.j,
+                         swap ? ImageShift<2>{-l.shift[0], -l.shift[1]} : l.shift,
+                         {l.tangential_force, swap ? -l.moment : l.moment}});
+    }
+  try {
+    lists_.build(bodies_, state.packing.cell, std::move(springs));
+  } catch (const ListFailure& e) {
+    throw RunError(state.step, -1, e.what(), "use more grains (grains.count) or a larger cell (grains.solid_fraction)");
+  }
+}
+
+void DiskEngine::start_half_steps() {
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    double *row = bodies_.row(k), *load = bodies_.load(k);
+    const BodyConstants& c = bodies_.constants[k];
+    row[Slot::half_vx] -= 0.5 * dt_ * load[LoadSlot::fx] * c.inverse_mass;
+    row[Slot::half_vy] -= 0.5 * dt_ * load[LoadSlot::fy] * c.inverse_mass;
+    row[Slot::half_spin] -=
+        0.5 * dt_ * (c.radius * load[LoadSlot::moment_per_radius] + load[LoadSlot::moment]) * c.inverse_inertia;
+    row[Slot::surface_speed] = c.radius * row[Slot::half_spin];
+    for (int a = 0; a < 2; ++a) motion_tally_.kinetic[a] += c.mass * row[Slot::vx + a] * row[Slot::vx + a];
+  }
+  if (energies_) set_work_due();
+}
+
+Advance DiskEngine::advance(const MotionStep& step, double drag) {
+  if (energies_ && (step.keep[0] != 1 || step.keep[1] != 1)) brake_ledger(step, drag);
+  over_chunks(team_, lists_, motion_tallies_, [&](std::size_t begin, std::size_t end) {
+    return motion_kernel_(bodies_, begin, end, step, prediction_);
+  });
+  motion_tally_ = {};
+  for (const MotionTally& t : motion_tallies_) {
+    motion_tally_.largest_speed_squared = std::max(motion_tally_.largest_speed_squared, t.largest_speed_squared);
+    motion_tally_.kinetic[0] += t.kinetic[0], motion_tally_.kinetic[1] += t.kinetic[1];
+  }
+  const double move = dt_ * std::sqrt(motion_tally_.largest_speed_squared);
+  const double affine = std::max(std::abs(step.scale[0] - 1), std::abs(step.scale[1] - 1));
+  // Listed neighbours are nearer than two diameters and the range; the first factor covers the rescaling of the
+  // peculiar move, and the rounding of travels summed over many steps.
+  return {(1.01 + affine) * (2 * move + affine * (2 * largest_diameter_ + law_.attraction_range)),
+          !(move <= kMostMove * smallest_diameter_)};
+}
+
+void DiskEngine::update_lists(const Cell& cell, double displacement) { lists_.update(bodies_, cell, displacement); }
+
+void DiskEngine::compute_forces(const Cell& cell, const CellFlow& flow, double time_step) {
+  cell_ = cell, flow_ = flow;
+  PairForceInput in;
+  in.rows = bodies_.rows.data();
+  in.loads = bodies_.loads.data();
+  in.pairs = {lists_.i(),
+              lists_.j(),
+              lists_.shift(),
+              lists_.columns().damping(),
+              lists_.columns().radius_sum(),
+              lists_.columns().tangential(),
+              lists_.columns().moment()};
+  in.law = law_;
+  in.time_step = time_step;
+  for (int a = 0; a < 2; ++a) in.flow_half[a] = flow_.half[a], in.flow_now[a] = flow_.now[a];
+  for (std::uint8_t code = 0; code < 9 && cell; ++code) {
+    const Vec2 offset = cell->offset(image_shift(code));
+    in.offset_x[code] = offset[0], in.offset_y[code] = offset[1];
+  }
+  force_tally_ = over_groups(team_, lists_, force_tallies_, [&](const PairGroup& group) {
+    PairForceTally tally;
+    PairForceInput part = in;
+    part.begin = group.begin, part.end = group.images, part.images = false;
+    if (part.begin < part.end) tally += force_kernel_(part);
+    part.begin = group.images, part.end = group.end, part.images = true;
+    if (part.begin < part.end) tally += force_kernel_(part);
+    return tally;
+  });
+}
+
+StressSums DiskEngine::sums() const {
+  return {{motion_tally_.kinetic[0], motion_tally_.kinetic[1]}, {force_tally_.virial[0], force_tally_.virial[1]}};
+}
+
+void DiskEngine::set_law(const DiskLaw& law, Springs springs) {
+  if (energies_) ledger_.injected -= elastic_energy();
+  DiskPairs& pairs = lists_.columns();
+  if (springs == Springs::keep_elongations) {
+    const auto growth = [](double now, double before) { return before > 0 ? now / before : 1.0; };
+    pairs.scale_springs(growth(law.tangential_stiffness, law_.tangential_stiffness),
+                        growth(law.rolling_stiffness, law_.rolling_stiffness));
+  }
+  pairs.set_stiffness(law.normal_stiffness);
+  lists_.for_each([&](std::size_t k, std::int32_t i, std::int32_t j, std::uint8_t) {
+    pairs.set_damping(k, bodies_.constants[static_cast<std::size_t>(i)],
+                      bodies_.constants[static_cast<std::size_t>(j)]);
+  });
+  law_ = law;
+  prediction_ = velocity_prediction(law_, smallest_mass_, dt_);
+  if (energies_) ledger_.injected += elastic_energy();
+}
+
+Vec2 DiskEngine::branch(std::int32_t i, std::int32_t j, std::uint8_t shift, const Cell& cell) const {
+  const Vec2 far = bodies_.position(static_cast<std::size_t>(j)), near = bodies_.position(static_cast<std::size_t>(i));
+  return cell ? far + cell->offset(image_shift(shift)) - near : far - near;
+}
+
+void DiskEngine::check_bodies(std::int64_t step) const {
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    const double* row = bodies_.row(k);
+    const double move = dt_ * std::hypot(row[Slot::half_vx], row[Slot::half_vy]);
+    if (!std::isfinite(row[Slot::x] + row[Slot::y] + row[Slot::half_vx] + row[Slot::half_vy] + row[Slot::half_spin]))
+      throw RunError(step, bodies_.id[k], "its position or velocity is not a number", "lower step.fraction");
+    if (!(move <= kMostMove * smallest_diameter_))
+      throw RunError(step, bodies_.id[k], "it moves " + std::to_string(move) + " a in one step",
+                     "lower step.fraction or stage.velocity");
+  }
+}
+
+void DiskEngine::check_overlaps(const Cell& cell, std::int64_t step) const {
+  lists_.for_each([&](std::size_t, std::int32_t i, std::int32_t j, std::uint8_t shift) {
+    const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+    const double sum = bodies_.radius(a) + bodies_.radius(b), distance = norm(branch(i, j, shift, cell));
+    if (distance < (1 - kMostOverlap) * sum)
+      throw RunError(
+          step, bodies_.id[a],
+          "it overlaps grain " + std::to_string(bodies_.id[b]) + " by " + std::to_string(sum - distance) + " a",
+          "raise law.normal_stiffness or lower stage.pressure");
+  });
+}
+
+void DiskEngine::snapshot(State<Disks>& s) const {
+  s.ledger = ledger_;
+  s.law = law_;
+  snapshot_bodies(s);
+  lists_.remember(s.memory.lists, s.memory.pairs);
+  snapshot_links(s);
+}
+
+void DiskEngine::snapshot_bodies(State<Disks>& s) const {
+  const std::size_t n = bodies_.size();
+  const double half = 0.5 * dt_;
+  Bodies<2>& b = s.packing.bodies;
+  b.resize(n);
+  DiskMemory& m = s.memory;
+  m.half_velocity.resize(n), m.half_spin.resize(n), m.force.resize(n), m.torque.resize(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const double *row = bodies_.row(k), *load = bodies_.load(k);
+    const BodyConstants& c = bodies_.constants[k];
+    const double torque = c.radius * load[LoadSlot::moment_per_radius] + load[LoadSlot::moment];
+    b.id[k] = bodies_.id[k];
+    b.position[k] = bodies_.position(k);
+    b.velocity[k] = {{row[Slot::half_vx] + half * load[LoadSlot::fx] * c.inverse_mass,
+                      row[Slot::half_vy] + half * load[LoadSlot::fy] * c.inverse_mass}};
+    b.spin[k] = row[Slot::half_spin] + half * torque * c.inverse_inertia;
+    b.radius[k] = c.radius, b.mass[k] = c.mass, b.inertia[k] = bodies_.inertia[k];
+    m.half_velocity[k] = {{row[Slot::half_vx], row[Slot::half_vy]}};
+    m.half_spin[k] = row[Slot::half_spin];
+    m.force[k] = {{load[LoadSlot::fx], load[LoadSlot::fy]}};
+    m.torque[k] = torque;
+  }
+}
+
+// Static forces, by the law at rest: what a step adds for viscosity and for contacts that form in it is no part of
+// them.
+void DiskEngine::snapshot_links(State<Disks>& s) const {
+  s.packing.links.clear();
+  lists_.for_each([&](std::size_t k, std::int32_t i, std::int32_t j, std::uint8_t shift) {
+    const Vec2 r = branch(i, j, shift, s.packing.cell);
+    const LinkFrame<double> frame = link_frame(r[0], r[1], bodies_.radius(static_cast<std::size_t>(i)),
+                                               bodies_.radius(static_cast<std::size_t>(j)));
+    const bool touches = frame.gap < 0;
+    if (!touches && !(law_.attraction > 0 && frame.gap < law_.attraction_range)) return;
+    const DiskHistory springs = touches ? lists_.columns().history(k) : DiskHistory{};
+    Link<2> link;
+    link.i = i, link.j = j, link.shift = image_shift(shift), link.gap = frame.gap;
+    link.normal_force = at_rest(law_, frame.gap).force;
+    link.tangential_force = springs.tangential_force, link.moment = springs.moment;
+    link.kind = kind_of(law_, frame.gap, link.tangential_force, link.moment);
+    s.packing.links.push_back(link);
+  });
+}
+
+}  // namespace isostat

@@ -1,0 +1,76 @@
+#include "dem/disks/stage.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "dem/disks/energy.hpp"
+#include "dem/disks/sample.hpp"
+#include "dem/solver/random.hpp"
+
+namespace isostat {
+
+void prepare_stage(State<Disks>& s, const StageScene& stage) {
+  s.progress.start_stiffness = s.law.normal_stiffness;
+  const double stiffest = std::max(s.law.normal_stiffness, stage.normal_stiffness.value_or(0));
+  const double dt = time_step(s.scene, stiffest, s.packing.bodies), earlier = 0.5 * (s.time_step - dt);
+  if (dt == s.time_step) return;
+  s.time_step = dt;
+  DiskMemory& m = s.memory;
+  const Bodies<2>& b = s.packing.bodies;
+  for (std::size_t k = 0; k < m.half_velocity.size(); ++k) {
+    m.half_velocity[k] += (earlier / b.mass[k]) * m.force[k];
+    m.half_spin[k] += earlier * m.torque[k] / b.inertia[k];
+  }
+}
+
+void agitate(State<Disks>& s, const StageScene& stage) {
+  if (!(stage.velocity > 0)) return;
+  const double rms = stage.velocity * std::sqrt(s.law.attraction * s.law.attraction_range);
+  Bodies<2>& b = s.packing.bodies;
+  Random random(s.seed, s.random_counter);
+  // Drawn in the order of the ids: storage order is the solver's business.
+  std::vector<std::size_t> order(b.size());
+  for (std::size_t k = 0; k < b.size(); ++k) order[k] = k;
+  std::sort(order.begin(), order.end(), [&](std::size_t p, std::size_t q) { return b.id[p] < b.id[q]; });
+  const double before = energies(s).kinetic;
+  Vec2 momentum{};
+  double mass = 0;
+  for (std::size_t k : order) {
+    b.velocity[k] = {{random.normal(), random.normal()}};
+    momentum += b.mass[k] * b.velocity[k];
+    mass += b.mass[k];
+  }
+  double sum = 0;
+  for (std::size_t k : order) {
+    b.velocity[k] -= (1 / mass) * momentum;
+    sum += dot(b.velocity[k], b.velocity[k]);
+  }
+  const double scale = sum > 0 ? rms / std::sqrt(sum / static_cast<double>(b.size())) : 0.0;
+  double after = 0;
+  for (std::size_t k = 0; k < b.size(); ++k) {
+    b.velocity[k] = scale * b.velocity[k];
+    after += 0.5 * b.mass[k] * dot(b.velocity[k], b.velocity[k]);
+    b.spin[k] = 0;
+    if (!s.memory.half_velocity.empty()) {
+      s.memory.half_velocity[k] = b.velocity[k] - (0.5 * s.time_step / b.mass[k]) * s.memory.force[k];
+      s.memory.half_spin[k] = -0.5 * s.time_step * s.memory.torque[k] / b.inertia[k];
+    }
+  }
+  s.random_counter = random.counter();
+  s.ledger.injected += after - before;
+}
+
+bool law_changes(const State<Disks>& s, const StageScene& stage) {
+  return stage.normal_stiffness && s.law.normal_stiffness != *stage.normal_stiffness;
+}
+
+DiskLaw law_at(const State<Disks>& s, const StageScene& stage, double time) {
+  const double from = s.progress.start_stiffness, to = *stage.normal_stiffness;
+  const double part = (time - s.progress.start_time) / stage.stiffening_time;
+  LawScene law = s.scene.law;
+  law.normal_stiffness = part < 1 ? from * std::pow(to / from, part) : to;
+  return resolve(law);
+}
+
+}  // namespace isostat

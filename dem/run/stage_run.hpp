@@ -1,0 +1,177 @@
+// One stage from wherever it stands to its end.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "dem/run/finishing_policy.hpp"
+#include "dem/run/observers.hpp"
+#include "dem/run/stage_end.hpp"
+#include "dem/run/stages.hpp"
+
+namespace isostat {
+
+template <class System>
+class StageRun {
+ public:
+  StageRun(State<System>& state, const SolverOptions& options, const RunHooks<System>& hooks,
+           Observers<System>& observers, StaticSolver<System>* finisher)
+      : s_(state),
+        stage_(state.scene.stages[static_cast<std::size_t>(state.progress.stage)]),
+        hooks_(hooks),
+        options_(options),
+        observers_(observers),
+        finisher_(finisher),
+        end_(state, stage_),
+        policy_(state, stage_),
+        solver_(std::in_place, state, cell_control(state, stage_), options),
+        interval_(check_interval(state.time_step)),
+        slice_(
+            std::max<std::int64_t>(1, kGrainStepsPerSlice / static_cast<std::int64_t>(state.packing.bodies.size()))) {
+    if (s_.progress.drag_on) solver_->set_drag(s_.scene.finish.drag);
+    observers_.begin_stage(s_);
+  }
+
+  // None when it was interrupted.
+  std::optional<StageOutcome> run() {
+    for (;;) {
+      if (solver_->steps() % interval_ == 0 || end_.reached(solver_->time())) {
+        look();
+        const bool to_be_solved = policy_.statically_solved() && end_.met();
+        if (!to_be_solved)
+          if (auto outcome = over()) return outcome;
+        if (policy_.acts()) {
+          policy_.follow_contacts();
+          if (to_be_solved || policy_.only_creep_is_left()) finish();
+          if (!interrupted_)
+            if (auto outcome = over()) return outcome;
+        }
+      }
+      if (interrupted_ || (hooks_.interrupted && hooks_.interrupted())) {
+        take();
+        return std::nullopt;
+      }
+      change_law();
+      march();
+      observers_.watch(s_, solver_->time(), solver_->cell(), [this] { check_and_take(); });
+    }
+  }
+  StepTimes times() const {
+    StepTimes sum = times_before_;
+    return sum += solver_->times();
+  }
+
+ private:
+  static constexpr std::int64_t kLawEvery = 10;                    // [steps] K_N changes by 1e-4 or so each time
+  static constexpr std::int64_t kGrainStepsPerSlice = 10'000'000;  // about a tenth of a second between polls
+
+  // Steps between two looks at the packing: half a T0, within reason. A look costs about as much as ten steps.
+  static std::int64_t check_interval(double time_step) {
+    return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::lround(0.5 / time_step)), 200, 2000);
+  }
+
+  // Stiffnesses on their way from what they were to what the stage wants, as a function of time alone.
+  void change_law() {
+    if (!law_changes(s_, stage_) || solver_->steps() % kLawEvery != 0) return;
+    s_.law = law_at(s_, stage_, solver_->time());
+    solver_->set_law(s_.law, stage_.stiffening_keeps);
+  }
+
+  // To the next step at which anything is to be done.
+  void march() {
+    std::int64_t steps = std::min(slice_, interval_ - solver_->steps() % interval_);
+    if (law_changes(s_, stage_)) steps = std::min(steps, kLawEvery - solver_->steps() % kLawEvery);
+    const double stop = std::min(end_.time(), observers_.next_time(s_, solver_->time()));
+    if (std::isfinite(stop))
+      steps = std::clamp<std::int64_t>(std::llround((stop - solver_->time()) / s_.time_step), 1, steps);
+    solver_->run(steps);
+  }
+
+  // The state at this instant, with its certificate.
+  void take() {
+    solver_->snapshot(s_);
+    certify();
+  }
+  void check_and_take() {
+    solver_->check_sanity();
+    take();
+  }
+  void certify() {
+    const std::string finishing = s_.progress.drag_on ? "drag" : s_.certificate.finishing;
+    s_.certificate = evaluate_certificate(s_.packing, s_.law, s_.imposed_stress, s_.scene.equilibrium);
+    s_.certificate.finishing = finishing;
+  }
+  void look() {
+    check_and_take();
+    observers_.look(s_);
+  }
+
+  // Everything that is decided about a run is decided here, at fixed steps, whoever watches.
+  std::optional<StageOutcome> over() {
+    end_.follow_peak();
+    const std::string until(name(stage_.until));
+    const bool waits = waits_for_equilibrium(stage_.until);
+    StageOutcome outcome{s_.progress.stage, true, s_.time, until, waits ? s_.certificate.moving : 0};
+    if (end_.met()) return outcome;
+    outcome.met = false;
+    if (hooks_.max_time > 0 && s_.time >= hooks_.max_time) {
+      outcome.reason = "stopped by --max-time " + std::to_string(hooks_.max_time) + " T0: " + end_.missing();
+      return outcome;
+    }
+    if (stage_.until != Until::time && s_.time - s_.progress.start_time >= stage_.max_time) {
+      outcome.reason = "stage.until = \"" + until +
+                       "\" not met after stage.max_time = " + std::to_string(stage_.max_time) +
+                       " T0: " + end_.missing() + "; raise stage.max_time" + (waits ? " or set finish.method" : "");
+      return outcome;
+    }
+    return std::nullopt;
+  }
+
+  void finish() {
+    if (s_.scene.finish.method == Finish::drag && !s_.progress.drag_on) {
+      s_.progress.drag_on = true;
+      solver_->set_drag(s_.scene.finish.drag);
+    }
+    if (policy_.statically_solved()) settle();
+  }
+
+  // Static solves instead of waiting. When they meet a capture, the run goes through it and they take over again. If
+  // they cannot do anything, nothing has changed: the run goes on and tries again later.
+  void settle() {
+    const CellControl control = cell_control(s_, stage_);
+    const bool flying = policy_.still_flying();
+    const double drag = policy_.rings() && !flying ? s_.scene.finish.drag : 0.0;
+    const FinishingReport report =
+        finisher_->settle(s_, {control.stress, control.inertia, drag, flying, hooks_.interrupted});
+    if (report.interrupted) {
+      interrupted_ = true;  // nothing has changed: a resumed run begins the same solve
+      return;
+    }
+    if (report.settled || report.advanced) {
+      times_before_ += solver_->times();
+      solver_.emplace(s_, control, options_);
+      solver_->snapshot(s_);
+      s_.certificate.finishing = "newton";
+    }
+    s_.progress.drifting = policy_.drifts_after(report);
+    certify();
+    s_.certificate.moving = std::max(s_.certificate.moving, report.moving);
+    policy_.wait_after(report);
+  }
+
+  State<System>& s_;
+  const StageScene& stage_;
+  const RunHooks<System>& hooks_;
+  const SolverOptions options_;
+  Observers<System>& observers_;
+  StaticSolver<System>* finisher_;
+  StageEnd<System> end_;
+  FinishingPolicy<System> policy_;
+  std::optional<Solver<System>> solver_;
+  StepTimes times_before_;  // of the solvers before a static solve
+  std::int64_t interval_, slice_;
+  bool interrupted_ = false;  // in a static solve
+};
+
+}  // namespace isostat

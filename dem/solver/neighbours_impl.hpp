@@ -1,0 +1,330 @@
+// NeighbourLists<Columns> written out; included where a system instantiates it.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+#include "dem/solver/neighbours.hpp"
+
+namespace isostat {
+namespace lists {
+
+// Tuning, in the regime of METHODS.md "The disk engine"; none of these enters a result.
+inline constexpr double kOuterSkin = 0.35;          // [mean diameter]
+inline constexpr double kInnerSteps = 100;          // steps that the inner skin should last
+inline constexpr double kSmallestInnerSkin = 5e-4;  // [smallest diameter]
+inline constexpr double kLargestInnerSkin = 0.3;    // [outer skin]
+inline constexpr std::size_t kBodiesPerChunk = 4096;
+
+struct Wrapped {
+  int cell, shift;
+};
+inline Wrapped wrap_index(int c, int n) {
+  return c < 0 ? Wrapped{c + n, -1} : c >= n ? Wrapped{c - n, 1} : Wrapped{c, 0};
+}
+
+// Place of the n-th pair in a segment of so many batches. Pairs come sorted by body i. Dealt out like cards, one to
+// each lane of kDeck batches before the next, those of one body come to stand batches apart; side by side, each would
+// wait for the load of that body to come back from the store before it (5 to 20 % of the step,
+// docs/measured/benchmarks.md). In samples beyond the caches the prefetcher wants the sorted order instead.
+inline constexpr std::size_t kDeck = 16;          // batches
+inline constexpr std::size_t kMostDealt = 32768;  // bodies: 3 MB of rows and loads
+inline std::size_t dealt(std::size_t n, std::size_t batches) {
+  const std::size_t first = n / (kDeck * kPairBatch) * kDeck, rows = std::min(kDeck, batches - first);
+  const std::size_t card = n - first * kPairBatch;
+  return (first + card % rows) * kPairBatch + card / rows;
+}
+
+}  // namespace lists
+
+template <class Columns>
+int NeighbourLists<Columns>::chunk_count(std::size_t bodies) {
+  const int chunks = static_cast<int>(std::min<std::size_t>(bodies / lists::kBodiesPerChunk, Bodies::kPads));
+  return chunks < 2 ? 1 : chunks - chunks % 2;  // even: segments between chunks alternate between two phases
+}
+
+template <class Columns>
+NeighbourLists<Columns>::NeighbourLists(std::size_t bodies, double range, Columns columns)
+    : bodies_(bodies), chunks_(chunk_count(bodies)), range_(range), columns_(std::move(columns)) {}
+
+template <class Columns>
+std::size_t NeighbourLists<Columns>::chunk_begin(int chunk) const {
+  return bodies_ * static_cast<std::size_t>(chunk) / static_cast<std::size_t>(chunks_);
+}
+
+template <class Columns>
+int NeighbourLists<Columns>::chunk_of(std::int32_t body) const {
+  if (chunks_ == 1) return 0;
+  int c = static_cast<int>(static_cast<std::size_t>(body) * static_cast<std::size_t>(chunks_) / bodies_);
+  while (static_cast<std::size_t>(body) < chunk_begin(c)) --c;
+  while (static_cast<std::size_t>(body) >= chunk_begin(c + 1)) ++c;
+  return c;
+}
+
+// No pair may be listed through its second image: in a tiny cell the skin is what the cell leaves.
+template <class Columns>
+double NeighbourLists<Columns>::outer_skin_for(const Cell& cell) const {
+  const double wanted = lists::kOuterSkin * mean_diameter_;
+  return cell ? std::min(wanted, std::min(cell->length[0], cell->length[1]) - largest_diameter_ - range_) : wanted;
+}
+
+template <class Columns>
+CellGrid<2> NeighbourLists<Columns>::grid_for(const std::vector<Vec2>& position, double cutoff) const {
+  const Frame<2> frame = frame_of(outer_cell_, position);
+  for (int k = 0; k < 2; ++k) {
+    if (!std::isfinite(frame.length[k])) throw ListFailure("a position is not a number");
+    if (frame.periodic && !(frame.length[k] >= cutoff))
+      throw ListFailure("the cell, L" + std::to_string(k + 1) + " = " + std::to_string(frame.length[k]) +
+                        " a, is smaller than the largest interaction distance " + std::to_string(cutoff) +
+                        " a: a grain would touch itself");
+  }
+  return {frame, cutoff, bodies_};
+}
+
+// In the order of size: the storage order, which changes in the run, must not show in the last bit after a restart.
+template <class Columns>
+void NeighbourLists<Columns>::measure(const Bodies& bodies) {
+  std::vector<double> radii;
+  for (std::size_t k = 0; k < bodies_; ++k) radii.push_back(bodies.radius(k));
+  std::sort(radii.begin(), radii.end());
+  smallest_diameter_ = 2 * radii.front(), largest_diameter_ = 2 * radii.back();
+  mean_diameter_ = 2 * std::accumulate(radii.begin(), radii.end(), 0.0) / static_cast<double>(bodies_);
+}
+
+template <class Columns>
+double NeighbourLists<Columns>::inner_skin_for(double pair_displacement) const {
+  return std::min(std::max(lists::kInnerSteps * pair_displacement, lists::kSmallestInnerSkin * smallest_diameter_),
+                  lists::kLargestInnerSkin * outer_skin_);
+}
+
+template <class Columns>
+void NeighbourLists<Columns>::build(Bodies& bodies, const Cell& cell, std::vector<Pair> histories) {
+  measure(bodies);
+  sort_bodies(bodies, cell, histories);
+  outer_skin_ = outer_skin_for(cell);
+  inner_skin_ = inner_skin_for(0);
+  find_outer(bodies);
+  inner_cell_ = cell;
+  filter_inner(bodies, histories);
+}
+
+template <class Columns>
+void NeighbourLists<Columns>::rebuild(Bodies& bodies, const Cell& cell, double pair_displacement) {
+  if (!std::isfinite(inner_travel_)) throw ListFailure("a velocity is not a number");
+  std::vector<Pair> kept = histories();
+  inner_skin_ = inner_skin_for(pair_displacement);
+  // A pair now within the inner range had, when the outer list was made, at most this gap plus what it has moved.
+  if (outer_travel_ + inner_skin_ > outer_skin_) {
+    sort_bodies(bodies, cell, kept);
+    outer_skin_ = outer_skin_for(cell);
+    inner_skin_ = inner_skin_for(pair_displacement);
+    find_outer(bodies);
+  }
+  inner_cell_ = cell;
+  filter_inner(bodies, kept);
+}
+
+// Counting sort by grid cell, row by row, stable: the order is a function of the positions and the order before.
+template <class Columns>
+void NeighbourLists<Columns>::sort_bodies(Bodies& bodies, const Cell& cell, std::vector<Pair>& histories) {
+  outer_cell_ = cell;
+  std::vector<ImageShift<2>> wraps(bodies_);
+  std::vector<Vec2> position(bodies_);
+  for (std::size_t k = 0; k < bodies_; ++k) {
+    Vec2& r = position[k] = bodies.position(k);
+    if (!cell) continue;
+    for (int a = 0; a < 2; ++a) {
+      const double cells = std::floor(r[a] / cell->length[a]);
+      if (!(std::abs(cells) < 1e6)) throw ListFailure("grain " + std::to_string(bodies.id[k]) + " has left the cell");
+      r[a] -= cells * cell->length[a];
+      wraps[k][static_cast<std::size_t>(a)] = static_cast<int>(cells);
+    }
+    bodies.place(k, r);
+  }
+  const GridMembers<2> members(grid_for(position, largest_diameter_ + range_), position);
+  std::vector<std::int32_t> to(bodies_);
+  for (std::size_t n = 0; n < bodies_; ++n)
+    to[static_cast<std::size_t>(members.member[n])] = static_cast<std::int32_t>(n);
+  bodies.reorder(to);
+
+  // r_j + s L - r_i is unchanged when j is wrapped by w_j cells and i by w_i: s becomes s + w_j - w_i.
+  for (Pair& h : histories) {
+    for (std::size_t a = 0; a < 2; ++a)
+      h.shift[a] += wraps[static_cast<std::size_t>(h.j)][a] - wraps[static_cast<std::size_t>(h.i)][a];
+    h.i = to[static_cast<std::size_t>(h.i)];
+    h.j = to[static_cast<std::size_t>(h.j)];
+    if (h.i > h.j) {
+      std::swap(h.i, h.j);
+      h.shift = {-h.shift[0], -h.shift[1]};
+      h.history = Columns::turned(h.history);
+    }
+  }
+  ++outer_rebuilds_;
+}
+
+template <class Columns>
+void NeighbourLists<Columns>::find_outer(const Bodies& bodies) {
+  outer_travel_ = 0;
+  outer_position_.resize(bodies_);
+  for (std::size_t k = 0; k < bodies_; ++k) outer_position_[k] = bodies.position(k);
+  outer_i_.clear(), outer_j_.clear(), outer_shift_.clear();
+
+  const CellGrid<2> grid = grid_for(outer_position_, largest_diameter_ + range_ + outer_skin_);
+  const GridMembers<2> members(grid, outer_position_);
+  for (std::size_t i = 0; i < bodies_; ++i) {
+    const Vec2 ri = outer_position_[i];
+    const double reach_i = bodies.radius(i) + range_ + outer_skin_;
+    const int cx = grid.column(ri[0], 0), cy = grid.column(ri[1], 1);
+    for (int oy = -1; oy <= 1; ++oy) {
+      const lists::Wrapped wy = lists::wrap_index(cy + oy, grid.count(1));
+      for (int ox = -1; ox <= 1; ++ox) {
+        const lists::Wrapped wx = lists::wrap_index(cx + ox, grid.count(0));
+        const ImageShift<2> shift{wx.shift, wy.shift};
+        if (!outer_cell_ && shift != ImageShift<2>{}) continue;
+        const Vec2 offset = outer_cell_ ? outer_cell_->offset(shift) : Vec2{};
+        const std::size_t c = grid.index(std::array<int, 2>{wx.cell, wy.cell});
+        for (auto m = static_cast<std::size_t>(members.begin[c]); m < static_cast<std::size_t>(members.begin[c + 1]);
+             ++m) {
+          const auto j = static_cast<std::size_t>(members.member[m]);
+          if (j <= i) continue;
+          const double dx = outer_position_[j][0] + offset[0] - ri[0], dy = outer_position_[j][1] + offset[1] - ri[1];
+          const double reach = reach_i + bodies.radius(j);
+          if (dx * dx + dy * dy > reach * reach) continue;
+          outer_i_.push_back(static_cast<std::int32_t>(i));
+          outer_j_.push_back(static_cast<std::int32_t>(j));
+          outer_shift_.push_back(image_code(shift));
+        }
+      }
+    }
+  }
+}
+
+template <class Columns>
+std::size_t NeighbourLists<Columns>::segment_of(std::int32_t i, std::int32_t j, std::uint8_t shift) const {
+  const std::size_t images = shift == kNoImage ? 0 : 1;
+  if (chunks_ == 1) return images;
+  const int ci = chunk_of(i), cj = chunk_of(j);
+  const int group = ci == cj                   ? ci
+                    : cj == (ci + 1) % chunks_ ? chunks_ + ci
+                    : ci == (cj + 1) % chunks_ ? chunks_ + cj
+                                               : 2 * chunks_;
+  return 2 * static_cast<std::size_t>(group) + images;
+}
+
+template <class Columns>
+void NeighbourLists<Columns>::filter_inner(const Bodies& bodies, const std::vector<Pair>& kept) {
+  ++inner_rebuilds_;
+  inner_travel_ = 0;
+  inner_position_.resize(bodies_);
+  for (std::size_t k = 0; k < bodies_; ++k) inner_position_[k] = bodies.position(k);
+
+  // Which outer pairs are near, counted by segment.
+  const std::size_t segments = chunks_ == 1 ? 2 : 2 * (2 * static_cast<std::size_t>(chunks_) + 1);
+  std::vector<std::size_t> count(segments, 0);
+  std::vector<std::uint32_t> near;
+  std::vector<std::uint16_t> segment;
+  near.reserve(2 * bodies_), segment.reserve(2 * bodies_);
+  double offsets[9][2];
+  for (std::uint8_t c = 0; c < 9; ++c) {
+    const Vec2 o = inner_cell_ ? inner_cell_->offset(image_shift(c)) : Vec2{};
+    offsets[c][0] = o[0], offsets[c][1] = o[1];
+  }
+  const double reach_beyond = range_ + inner_skin_;
+  for (std::size_t k = 0; k < outer_i_.size(); ++k) {
+    const auto i = static_cast<std::size_t>(outer_i_[k]), j = static_cast<std::size_t>(outer_j_[k]);
+    const double* o = offsets[outer_shift_[k]];
+    const double dx = inner_position_[j][0] + o[0] - inner_position_[i][0];
+    const double dy = inner_position_[j][1] + o[1] - inner_position_[i][1];
+    const double reach = bodies.radius(i) + bodies.radius(j) + reach_beyond;
+    if (dx * dx + dy * dy > reach * reach) continue;
+    near.push_back(static_cast<std::uint32_t>(k));
+    segment.push_back(static_cast<std::uint16_t>(segment_of(outer_i_[k], outer_j_[k], outer_shift_[k])));
+    ++count[segment.back()];
+  }
+
+  std::vector<std::size_t> begin(segments + 1, 0);
+  for (std::size_t s = 0; s < segments; ++s)
+    begin[s + 1] = begin[s] + (count[s] + kPairBatch - 1) / kPairBatch * kPairBatch;
+  i_.resize(begin.back()), j_.resize(begin.back()), shift_.assign(begin.back(), kNoImage);
+  for (std::size_t s = 0; s < segments; ++s) {
+    const std::size_t pad = Bodies::pad(bodies_, s / 2 % static_cast<std::size_t>(chunks_));
+    std::fill(i_.begin() + static_cast<std::ptrdiff_t>(begin[s]),
+              i_.begin() + static_cast<std::ptrdiff_t>(begin[s + 1]), offset_of(pad));
+    std::fill(j_.begin() + static_cast<std::ptrdiff_t>(begin[s]),
+              j_.begin() + static_cast<std::ptrdiff_t>(begin[s + 1]), offset_of(pad + 1));
+  }
+  columns_.resize(begin.back());
+
+  // Histories by their body i, to be claimed by the pairs. Those of an image further than the nearest ones (a link of a
+  // foreign packing that does not touch) have none to claim them.
+  std::vector<std::int32_t> history_begin(bodies_ + 1, 0);
+  auto has_code = [](const ImageShift<2>& s) { return std::abs(s[0]) <= 1 && std::abs(s[1]) <= 1; };
+  for (const Pair& h : kept) history_begin[static_cast<std::size_t>(h.i) + 1] += has_code(h.shift);
+  std::partial_sum(history_begin.begin(), history_begin.end(), history_begin.begin());
+  std::vector<Claimable> history(kept.size());
+  {
+    std::vector<std::int32_t> fill(history_begin.begin(), history_begin.end() - 1);
+    for (const Pair& h : kept)
+      if (has_code(h.shift))
+        history[static_cast<std::size_t>(fill[static_cast<std::size_t>(h.i)]++)] = {h.j, image_code(h.shift),
+                                                                                    h.history};
+  }
+
+  const bool deal = bodies_ <= lists::kMostDealt;
+  std::vector<std::size_t> fill(begin.begin(), begin.end() - 1);
+  for (std::size_t m = 0; m < near.size(); ++m) {
+    const std::size_t k = near[m], s = segment[m], place = fill[s]++ - begin[s];
+    const std::size_t to = begin[s] + (deal ? lists::dealt(place, (begin[s + 1] - begin[s]) / kPairBatch) : place);
+    const auto i = static_cast<std::size_t>(outer_i_[k]), j = static_cast<std::size_t>(outer_j_[k]);
+    i_[to] = offset_of(i), j_[to] = offset_of(j), shift_[to] = outer_shift_[k];
+    columns_.fill(to, bodies, i, j);
+    for (auto h = static_cast<std::size_t>(history_begin[i]); h < static_cast<std::size_t>(history_begin[i + 1]); ++h)
+      if (history[h].j == outer_j_[k] && history[h].shift == outer_shift_[k]) columns_.remember(to, history[h].history);
+  }
+
+  for (auto& p : phases_) p.clear();
+  for (std::size_t s = 0; s < segments; s += 2) {
+    if (begin[s] == begin[s + 2]) continue;
+    const auto group = static_cast<int>(s / 2);
+    const int phase = group < chunks_ ? 0 : group < 2 * chunks_ ? 1 + (group - chunks_) % 2 : 3;
+    phases_[phase].push_back({begin[s], begin[s + 1], begin[s + 2]});
+  }
+}
+
+template <class Columns>
+auto NeighbourLists<Columns>::histories() const -> std::vector<Pair> {
+  std::vector<Pair> kept;
+  for_each([&](std::size_t k, std::int32_t i, std::int32_t j, std::uint8_t shift) {
+    const History h = columns_.history(k);
+    if (h != History{}) kept.push_back({i, j, image_shift(shift), h});
+  });
+  return kept;
+}
+
+template <class Columns>
+void NeighbourLists<Columns>::remember(ListMemory& m, std::vector<Pair>& pairs) const {
+  const auto length = [](const Cell& cell) { return cell ? cell->length : Vec2{}; };
+  pairs = histories();
+  m.outer_position = outer_position_, m.inner_position = inner_position_;
+  m.outer_length = length(outer_cell_), m.inner_length = length(inner_cell_);
+  m.outer_skin = outer_skin_, m.inner_skin = inner_skin_;
+  m.outer_travel = outer_travel_, m.inner_travel = inner_travel_;
+}
+
+template <class Columns>
+void NeighbourLists<Columns>::restore(const Bodies& bodies, const ListMemory& m, const std::vector<Pair>& pairs) {
+  const auto cell = [](const Vec2& length) { return length == Vec2{} ? Cell{} : PeriodicCell<2>{length}; };
+  measure(bodies);
+  Bodies then = bodies;
+  for (std::size_t k = 0; k < bodies_; ++k) then.place(k, m.outer_position[k]);
+  outer_cell_ = cell(m.outer_length), outer_skin_ = m.outer_skin;
+  find_outer(then);
+  for (std::size_t k = 0; k < bodies_; ++k) then.place(k, m.inner_position[k]);
+  inner_cell_ = cell(m.inner_length), inner_skin_ = m.inner_skin;
+  filter_inner(then, pairs);
+  outer_travel_ = m.outer_travel, inner_travel_ = m.inner_travel;
+}
+
+}  // namespace isostat

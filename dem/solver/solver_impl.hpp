@@ -1,0 +1,113 @@
+// Solver<System> written out; included where a system instantiates it.
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include "dem/input_error.hpp"
+#include "dem/run_error.hpp"
+#include "dem/solver/neighbours.hpp"
+#include "dem/solver/solver.hpp"
+
+namespace isostat {
+
+inline constexpr double kMostStrain = 0.1;  // [-] of the cell in one step: beyond, the run has blown up
+
+template <class System>
+Solver<System>::Solver(const State<System>& state, const CellControl& control, SolverOptions options)
+    : control_(control),
+      dt_(state.time_step),
+      time_(state.time),
+      step_(state.step),
+      cell_(state.packing.cell),
+      cell_motion_(state.cell_motion),
+      engine_(state, control, options) {
+  if (control.moves() && !cell_)
+    throw InputError("scene", 0, "stage", "",
+                     "a stress or strain rate needs a periodic cell; this packing is isolated");
+  if (engine_.begins()) {
+    engine_.compute_forces(cell_, flow_, 0.0);
+    engine_.start_half_steps();
+    measure_stress();
+  }
+}
+
+template <class System>
+void Solver<System>::step() {
+  StageClock clock(times_, step_ % kTimedEvery == 0);
+  const double displacement = advance();
+  clock.mark(Stage::motion);
+  update_lists(displacement);
+  clock.mark(Stage::neighbours);
+  engine_.compute_forces(cell_, flow_, dt_);
+  clock.mark(Stage::forces);
+  measure_stress();
+  engine_.keep_books();
+  clock.mark(Stage::stress);
+  time_ += dt_;
+  ++step_;
+}
+
+template <class System>
+MotionStep Solver<System>::move_cell() {
+  MotionStep step;
+  step.time_step = dt_;
+  step.keep[0] = step.keep[1] = step.keep_spin = 1 - drag_ * dt_;
+  if (control_.moves()) flow_ = advance_cell(control_, dt_, cell_motion_, *cell_, step);
+  return step;
+}
+
+template <class System>
+double Solver<System>::advance() {
+  const MotionStep step = move_cell();
+  const Advance moved = engine_.advance(step, drag_);
+  const double affine = std::max(std::abs(step.scale[0] - 1), std::abs(step.scale[1] - 1));
+  if (moved.violent || !(affine <= kMostStrain)) check_sanity();
+  return moved.displacement;
+}
+
+template <class System>
+void Solver<System>::update_lists(double displacement) {
+  try {
+    engine_.update_lists(cell_, displacement);
+  } catch (const ListFailure& e) {
+    check_sanity();  // may name the grain
+    throw RunError(step_, -1, e.what(), Engine::kListAdvice);
+  }
+}
+
+// sigma_aa = (1/A) [sum m v_a^2 + sum over pairs F_a r_a], each pair once, compression positive.
+template <class System>
+void Solver<System>::measure_stress() {
+  if (!control_.moves()) return;
+  const StressSums sums = engine_.sums();
+  const double area = cell_->measure();
+  for (int a = 0; a < 2; ++a) cell_motion_.stress[a] = (sums.kinetic[a] + sums.virial[a]) / area;
+}
+
+template <class System>
+void Solver<System>::snapshot(State<System>& s) const {
+  s.time = time_, s.step = step_, s.time_step = dt_;
+  s.packing.cell = cell_;
+  s.cell_motion = cell_motion_;
+  s.imposed_stress = control_.stress;
+  engine_.snapshot(s);
+}
+
+template <class System>
+void Solver<System>::check_sanity() const {
+  engine_.check_bodies(step_);
+  check_cell();
+  engine_.check_overlaps(cell_, step_);
+}
+
+template <class System>
+void Solver<System>::check_cell() const {
+  if (!cell_) return;
+  for (int a = 0; a < 2; ++a)
+    if (!(std::abs(cell_motion_.strain_rate[a]) * dt_ <= kMostStrain) || !(cell_->length[a] > 0))
+      throw RunError(step_, -1,
+                     "the cell collapses, L" + std::to_string(a + 1) + " = " + std::to_string(cell_->length[a]),
+                     "set stage.max_strain_rate, raise cell.inertia or lower stage.pressure");
+}
+
+}  // namespace isostat

@@ -1,0 +1,21 @@
+// Solid fraction: volume (in the plane, area) of the bodies over that of the cell; overlaps are not subtracted.
+#pragma once
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "dem/state/packing.hpp"
+
+namespace isostat {
+
+// Not a number without a cell.
+template <int D>
+double solid_fraction(const Bodies<D>& bodies, const std::optional<PeriodicCell<D>>& cell) {
+  if (!cell) return std::numeric_limits<double>::quiet_NaN();
+  double sum = 0;
+  for (const double r : bodies.radius)
+    sum += D == 2 ? std::numbers::pi * r * r : 4.0 / 3.0 * std::numbers::pi * r * r * r;
+  return sum / cell->measure();
+}
+
+}  // namespace isostat

@@ -1,0 +1,15 @@
+#include "dem/systems.hpp"
+
+#include "dem/disks/check.hpp"
+#include "dem/disks/keys.hpp"
+#include "dem/disks/sample.hpp"
+
+namespace isostat {
+
+AnyState initial_state(const Scene& scene, std::uint64_t seed) { return initial_disks(scene, seed); }
+
+std::vector<SceneKey> system_keys() { return disk_keys(); }
+
+std::vector<SceneConflict> system_conflicts(const Scene& scene) { return disk_conflicts(scene); }
+
+}  // namespace isostat

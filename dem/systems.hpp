@@ -1,0 +1,18 @@
+// The systems that Isostat knows. To add one: its folder, a line here and in systems.cpp, a fixture in tests/systems.
+// A state of an unknown system stands only where files and commands meet one; everything else is told by template.
+#pragma once
+#include <cstdint>
+#include <string_view>
+#include <variant>
+
+#include "dem/disks/disks.hpp"
+
+namespace isostat {
+
+using AnyState = std::variant<State<Disks>>;
+
+// The state that a scene begins with (one of grains.file: at time 0 under the scene's law).
+// Throws InputError where the scene cannot be begun.
+AnyState initial_state(const Scene& scene, std::uint64_t seed);
+
+}  // namespace isostat

@@ -1,0 +1,159 @@
+// What holds for every system: the same bits for any number of threads, after any restart, watched or not; files that
+// give back what they were given; no force or momentum out of nothing; nothing that depends on the direction one looks.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "dem/state/balance.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/systems/fixtures.hpp"
+
+namespace isostat::systems {
+namespace {
+
+template <class System>
+class EverySystem : public ::testing::Test {
+ protected:
+  using Its = Fixture<System>;
+};
+TYPED_TEST_SUITE(EverySystem, Systems);
+
+TYPED_TEST(EverySystem, HasTheSameBitsForAnyNumberOfThreads) {
+  for (const auto& v : Fixture<TypeParam>::variants(9000)) {
+    if (!v.name.starts_with("rolling, adhesion")) continue;  // the richest: nine thousand bodies take their time
+    SCOPED_TRACE(v.name);
+    ASSERT_GT(TypeParam::Engine::Lists::chunk_count(v.state.packing.bodies.size()), 1);
+    std::vector<std::string> images;
+    for (const int threads : {1, 2, 3}) {
+      SolverOptions options;
+      options.threads = threads;
+      images.push_back(bytes(marched(v.state, v.control, 60, options)));
+    }
+    EXPECT_EQ(images[1], images[0]);
+    EXPECT_EQ(images[2], images[0]);
+    EXPECT_NE(bytes(v.state), images[0]);
+  }
+}
+
+// Cut anywhere, the run through a state file gives the bits of the straight run, lists in mid-life included.
+TYPED_TEST(EverySystem, RestartsAsIfItHadRunStraight) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "state.h5";
+  SolverOptions watched;
+  watched.energies = true;
+  for (const auto& v : Fixture<TypeParam>::variants(40)) {
+    SCOPED_TRACE(v.name);
+    Solver<TypeParam> straight(v.state, v.control, watched);
+    straight.run(150);
+    EXPECT_GT(straight.engine().lists().inner_rebuilds(), 5u);
+    State<TypeParam> end = v.state;
+    straight.snapshot(end);
+    for (const std::int64_t cut : {1, 37, 149}) {
+      write_state(marched(v.state, v.control, cut, watched), path);
+      const State<TypeParam> resumed = read_state<TypeParam>(path);
+      EXPECT_EQ(bytes(marched(resumed, v.control, 150 - cut, watched)), bytes(end)) << "cut at step " << cut;
+    }
+  }
+}
+
+// The ledger is kept by a dearer kernel; the physics does not notice. Snapshots only read.
+TYPED_TEST(EverySystem, IsNotChangedByWatching) {
+  for (const auto& v : Fixture<TypeParam>::variants(40)) {
+    SCOPED_TRACE(v.name);
+    const State<TypeParam> plain = marched(v.state, v.control, 120);
+    SolverOptions watched;
+    watched.energies = true;
+    Solver<TypeParam> solver(v.state, v.control, watched);
+    State<TypeParam> seen = v.state;
+    for (int k = 0; k < 120; ++k) {
+      solver.step();
+      solver.snapshot(seen);
+    }
+    EXPECT_EQ(physical_hash(seen), physical_hash(plain));
+    seen.ledger = plain.ledger;
+    EXPECT_EQ(bytes(seen), bytes(plain));
+  }
+}
+
+TYPED_TEST(EverySystem, ComesBackFromItsFile) {
+  for (const auto& v : Fixture<TypeParam>::variants(40)) {
+    SCOPED_TRACE(v.name);
+    const State<TypeParam> s = marched(v.state, v.control, 20);
+    const StateFile file = decode_state(encode_state(s), "memory");
+    ASSERT_TRUE(std::holds_alternative<State<TypeParam>>(file.state));
+    EXPECT_EQ(encode_state(file.state), encode_state(s));
+    EXPECT_EQ(file.hash, physical_hash(s));
+  }
+}
+
+// The forces on the bodies are those of the links (viscous ones apart), each with its opposite on the other body.
+TYPED_TEST(EverySystem, LoadsItsBodiesByItsLinks) {
+  for (auto v : Fixture<TypeParam>::variants(40)) {
+    SCOPED_TRACE(v.name);
+    State<TypeParam> s = marched(v.state, v.control, 50);
+    std::fill(s.packing.bodies.velocity.begin(), s.packing.bodies.velocity.end(), Vec2{});
+    std::fill(s.packing.bodies.spin.begin(), s.packing.bodies.spin.end(), 0.0);
+    s.memory = {}, s.cell_motion.strain_rate = {};
+    Solver<TypeParam> solver(s, v.control);  // evaluates the forces of the state as it stands
+    solver.snapshot(s);
+    const std::vector<BodyLoad> loads = net_loads(s.packing);
+    double scale = 0;
+    for (const Link<2>& l : s.packing.links) scale = std::max(scale, std::abs(l.normal_force));
+    ASSERT_GT(scale, 1);
+    Vec2 sum{};
+    for (std::size_t k = 0; k < loads.size(); ++k) {
+      EXPECT_NEAR(s.memory.force[k][0], loads[k].fx, 1e-13 * scale);
+      EXPECT_NEAR(s.memory.force[k][1], loads[k].fy, 1e-13 * scale);
+      EXPECT_NEAR(s.memory.torque[k], loads[k].moment, 1e-13 * scale);
+      sum += s.memory.force[k];
+    }
+    EXPECT_LT(norm(sum), 1e-12 * scale);
+  }
+}
+
+TYPED_TEST(EverySystem, KeepsItsMomentum) {
+  const auto momentum = [](const State<TypeParam>& s) {
+    Vec2 p{};
+    double about_origin = 0, size = 0;
+    const auto& b = s.packing.bodies;
+    for (std::size_t k = 0; k < b.size(); ++k) {
+      p += b.mass[k] * b.velocity[k];
+      about_origin += b.mass[k] * (b.position[k][0] * b.velocity[k][1] - b.position[k][1] * b.velocity[k][0]) +
+                      Fixture<TypeParam>::inertia(s, k) * b.spin[k];
+      size += b.mass[k] * norm(b.velocity[k]);
+    }
+    return std::tuple(p, about_origin, size);
+  };
+  for (const auto& v : Fixture<TypeParam>::variants(40)) {
+    if (v.control.moves()) continue;  // its velocities are relative to the flow
+    SCOPED_TRACE(v.name);
+    const auto [before, turning_before, size] = momentum(v.state);
+    const auto [after, turning_after, unused] = momentum(marched(v.state, v.control, 300));
+    EXPECT_LT(norm(after - before), 1e-12 * size);
+    // With the velocities of the same instant as the positions it is kept to the order of the step.
+    if (!v.state.packing.cell) {
+      EXPECT_NEAR(turning_after, turning_before, 1e-3 * size);
+    }
+  }
+}
+
+TYPED_TEST(EverySystem, LooksTheSameFromEveryDirection) {
+  constexpr double kAngle = 0.7;
+  for (const auto& v : Fixture<TypeParam>::variants(40)) {
+    if (v.state.packing.cell) continue;
+    SCOPED_TRACE(v.name);
+    const State<TypeParam> turned = marched(Fixture<TypeParam>::turned(v.state, kAngle), v.control, 60);
+    const State<TypeParam> straight = Fixture<TypeParam>::turned(marched(v.state, v.control, 60), kAngle);
+    std::map<std::int64_t, Vec2> place;
+    for (std::size_t k = 0; k < straight.packing.bodies.size(); ++k)
+      place[straight.packing.bodies.id[k]] = straight.packing.bodies.position[k];
+    for (std::size_t k = 0; k < turned.packing.bodies.size(); ++k)
+      EXPECT_LT(norm(turned.packing.bodies.position[k] - place.at(turned.packing.bodies.id[k])), 1e-11);
+  }
+}
+
+}  // namespace
+}  // namespace isostat::systems
