@@ -5,6 +5,7 @@
 
 #include "apps/arguments.hpp"
 #include "apps/commands.hpp"
+#include "dem/files/atomic_file.hpp"
 #include "dem/files/formats/csv.hpp"
 #include "dem/files/formats/dump.hpp"
 #include "dem/files/formats/vtp.hpp"
@@ -12,7 +13,6 @@
 #include "dem/files/network_file.hpp"
 #include "dem/files/packing_file.hpp"
 #include "dem/files/state_file.hpp"
-#include "dem/files/text_output.hpp"
 #include "dem/input_error.hpp"
 
 namespace isostat {
@@ -77,8 +77,8 @@ int convert_command(int argc, char** argv) {
   }
   const std::int64_t step = file.state ? file.state->step : 0;
   const double time = file.state ? file.state->time : 0;
-  write_text_files(file.packing_3d ? files_of(*file.packing_3d, output, step, time)
-                                   : files_of(file.packing, output, step, time));
+  write_files_atomically(file.packing_3d ? files_of(*file.packing_3d, output, step, time)
+                                         : files_of(file.packing, output, step, time));
   return exit_done;
 }
 

@@ -1,4 +1,4 @@
-// State files: one complete State in one HDF5 file, format version 1 of docs/formats.md.
+// State files: one complete State in one HDF5 file, described in docs/formats.md (format version: kStateFormatVersion).
 #pragma once
 #include <string>
 #include <string_view>
