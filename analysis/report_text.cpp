@@ -6,7 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "dem/files/text_output.hpp"
+#include "dem/files/formats/real_text.hpp"
 
 namespace isostat {
 namespace {

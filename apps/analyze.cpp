@@ -10,7 +10,7 @@
 #include "analysis/report_text.hpp"
 #include "apps/arguments.hpp"
 #include "apps/commands.hpp"
-#include "dem/files/text_output.hpp"
+#include "dem/files/atomic_file.hpp"
 #include "dem/input_error.hpp"
 
 namespace isostat {
@@ -123,7 +123,7 @@ int analyze_command(int argc, char** argv) {
       for (const auto& [name, content] : source)
         files.emplace_back((std::filesystem::path(*csv_directory) / name).string(), content);
   }
-  write_text_files(files);
+  write_files_atomically(files);
   if (json_path == "-")
     std::cout << report.dump(1) << '\n';
   else if (!json_path)

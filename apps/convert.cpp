@@ -5,6 +5,7 @@
 
 #include "apps/arguments.hpp"
 #include "apps/commands.hpp"
+#include "dem/files/atomic_file.hpp"
 #include "dem/files/formats/csv.hpp"
 #include "dem/files/formats/dump.hpp"
 #include "dem/files/formats/vtp.hpp"
@@ -12,7 +13,6 @@
 #include "dem/files/network_file.hpp"
 #include "dem/files/packing_file.hpp"
 #include "dem/files/state_file.hpp"
-#include "dem/files/text_output.hpp"
 #include "dem/input_error.hpp"
 
 namespace isostat {
@@ -76,8 +76,8 @@ int convert_command(int argc, char** argv) {
     return exit_done;
   }
   const State<Disks>& state = file.state;
-  write_text_files(file.packing_3d ? files_of(*file.packing_3d, output, state.step, state.time)
-                                   : files_of(state.packing, output, state.step, state.time));
+  write_files_atomically(file.packing_3d ? files_of(*file.packing_3d, output, state.step, state.time)
+                                         : files_of(state.packing, output, state.step, state.time));
   return exit_done;
 }
 

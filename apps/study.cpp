@@ -21,7 +21,6 @@
 #include "apps/study/study_progress.hpp"
 #include "apps/study/study_tables.hpp"
 #include "dem/files/atomic_file.hpp"
-#include "dem/files/text_output.hpp"
 #include "dem/input_error.hpp"
 
 namespace isostat {
@@ -168,7 +167,7 @@ class StudyRunner {
                   << '\n';
     }
     const TableFiles tables = study_tables(study_, runs_, records, folder_);
-    write_text_files(tables.files);
+    write_files_atomically(tables.files);
     for (const std::string& path : tables.stale) fs::remove(path);
     std::cerr << "isostat study: " << runs_.size() << " runs: " << counts[0] << " ok, " << counts[1] << " unfinished, "
               << counts[2] << " failed, " << counts[3] << " pending; tables in " << folder_ << '\n';

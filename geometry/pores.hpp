@@ -18,7 +18,7 @@ struct PoreArc {
   Vec2 centre{};           // [length]
   double radius = 0;       // [length]
   double start = 0;        // [rad] direction in which the arc begins
-  double sweep = 0;        // [rad] up to 2 pi
+  double sweep = 0;        // [rad] up to 2 pi; 0 or -1e-16 in a void that is closed to rounding
   std::uint32_t next = 0;  // index in Pores::arcs of the arc at which the wall goes on
 };
 

@@ -14,13 +14,20 @@ namespace {
 
 constexpr std::int32_t kNestedDissectionFrom = 50000;  // columns; below, AMD orders faster than it loses
 
+// CHOLMOD takes matrices without columns or entries, but refuses null pointers even where it has nothing to read.
+template <class T>
+T* never_null(const std::vector<T>& v) {
+  static T nothing{};
+  return v.empty() ? &nothing : const_cast<T*>(v.data());
+}
+
 cholmod_sparse view_of(const SymmetricMatrix& a) {
   cholmod_sparse view{};
   view.nrow = view.ncol = static_cast<std::size_t>(a.size);
   view.nzmax = a.row.size();
-  view.p = const_cast<std::int32_t*>(a.start.data());
-  view.i = const_cast<std::int32_t*>(a.row.data());
-  view.x = const_cast<double*>(a.value.data());
+  view.p = never_null(a.start);
+  view.i = never_null(a.row);
+  view.x = never_null(a.value);
   view.stype = -1;
   view.itype = CHOLMOD_INT;
   view.xtype = CHOLMOD_REAL;

@@ -9,6 +9,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "dem/state/hex_digest.hpp"
+
 namespace isostat {
 namespace {
 
@@ -26,11 +28,7 @@ class Digest {
   void add(const Vec2& v) { add(v[0]), add(v[1]); }
   std::string hex() const {
     const XXH128_hash_t h = XXH3_128bits_digest(state_);
-    constexpr char digits[] = "0123456789abcdef";
-    std::string text;
-    for (const std::uint64_t word : {h.high64, h.low64})
-      for (int shift = 60; shift >= 0; shift -= 4) text += digits[(word >> shift) & 15];
-    return text;
+    return hex_digest(h.high64, h.low64);
   }
 
  private:

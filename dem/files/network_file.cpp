@@ -4,9 +4,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <unordered_map>
 
 #include "dem/files/atomic_file.hpp"
@@ -41,16 +38,6 @@ std::optional<Number> number(std::string_view text) {
     if (!std::isfinite(value)) return std::nullopt;
   }
   return value;
-}
-
-std::string read_text(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::error_code ignored;
-  if (!file || std::filesystem::is_directory(path, ignored))
-    throw InputError(path, 0, "", "", "cannot be read; give an existing file");
-  std::ostringstream text;
-  text << file.rdbuf();
-  return std::move(text).str();
 }
 
 template <int D>
@@ -278,11 +265,11 @@ NetworkFile<D> parse_network(std::string_view text, const std::string& path, std
 
 template <int D>
 NetworkFile<D> read_network(const std::string& path, std::optional<double> gap_tolerance) {
-  return parse_network<D>(read_text(path), path, gap_tolerance);
+  return parse_network<D>(read_whole_file(path), path, gap_tolerance);
 }
 
 int network_dimension(const std::string& path) {
-  const std::string text = read_text(path);
+  const std::string text = read_whole_file(path);
   Fields f;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "dem/files/atomic_file.hpp"
 #include "dem/files/formats/csv.hpp"
 #include "dem/files/formats/dump.hpp"
 #include "dem/files/formats/text_table.hpp"
@@ -122,22 +123,22 @@ bool exists(const std::string& path) {
 }
 
 void read_csv(PackingFile& file, const std::string& path, const PackingReading& reading) {
-  const std::string text = read_text_file(path), links_path = contacts_csv_path(path);
+  const std::string text = read_whole_file(path), links_path = contacts_csv_path(path);
   std::string links_text;
   std::optional<TextTable> links;
   if (links_path != path && exists(links_path)) {
-    links_text = read_text_file(links_path);
+    links_text = read_whole_file(links_path);
     links = parse_csv(links_text, links_path);
   }
   read_tables(file, parse_csv(text, path), links, std::nullopt, reading);
 }
 
 void read_dump(PackingFile& file, const std::string& path, const PackingReading& reading) {
-  const std::string text = read_text_file(path), links_path = links_dump_path(path);
+  const std::string text = read_whole_file(path), links_path = links_dump_path(path);
   std::string links_text;
   std::optional<DumpFrame> links;
   if (links_path != path && exists(links_path)) {
-    links_text = read_text_file(links_path);
+    links_text = read_whole_file(links_path);
     links = parse_dump(links_text, links_path);
   }
   const DumpFrame grains = parse_dump(text, path);

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "dem/input_error.hpp"
+#include "dem/state/hex_digest.hpp"
 
 namespace isostat {
 namespace {
@@ -17,11 +18,7 @@ constexpr std::string_view kDigest = "\nxxh3-128 ";
 
 std::string digest(std::string_view data) {
   const XXH128_hash_t h = XXH3_128bits(data.data(), data.size());
-  constexpr char digits[] = "0123456789abcdef";
-  std::string text;
-  for (const unsigned long long word : {h.high64, h.low64})
-    for (int shift = 60; shift >= 0; shift -= 4) text += digits[(word >> shift) & 15];
-  return text;
+  return hex_digest(h.high64, h.low64);
 }
 
 // The words of a seal; they are a function of the data alone.

@@ -3,6 +3,19 @@
 #include "dem/scene/text.hpp"
 
 namespace isostat {
+namespace {
+
+// As it stands in a cell of a Markdown table, where a bar would end the cell.
+std::string cell_text(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '|') escaped += '\\';
+    escaped += c;
+  }
+  return escaped;
+}
+
+}  // namespace
 
 std::string scene_documentation() {
   const Scene scene = scene_with_every_key();
@@ -33,10 +46,11 @@ std::string scene_documentation() {
     std::string fallback = value_text(key, scene, 0);
     if (belongs_to_units(key)) fallback = "required";
     if (fallback.empty()) fallback = std::string(key.absent);
-    const std::string unit = key.unit.empty() ? "-" : std::string(key.unit);
-    text += "| `" + std::string(key.name) + "` | " + rule_text(key) + " | " + unit + " | " + fallback + " | " +
-            std::string(key.meaning);
-    if (key.condition.holds) text += " Applies when " + std::string(key.condition.in_words) + ".";
+    std::string meaning(key.meaning);
+    if (key.condition.holds) meaning += " Applies when " + std::string(key.condition.in_words) + ".";
+    text += "| `" + std::string(key.name) + "`";
+    for (const std::string& cell : {rule_text(key), std::string(key.unit.empty() ? "-" : key.unit), fallback, meaning})
+      text += " | " + cell_text(cell);
     text += " |\n";
   }
   return text;

@@ -11,13 +11,9 @@ Isa best_isa() {
   Isa best = Isa::scalar;
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) best = Isa::avx2;
-    // clang 14 compiles the AVX-512 kernel, on libstdc++'s <experimental/simd>, to wrong forces
-    // (docs/measured/checks.md).
-#if !defined(__clang__)
   if (best == Isa::avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
       __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw"))
     best = Isa::avx512;
-#endif
 #endif
   const char* asked = std::getenv("ISOSTAT_ISA");
   if (!asked) return best;

@@ -1,6 +1,7 @@
 // Counter-based random numbers: draw k of seed s is a pure function of (s, k), so a restart needs one counter and no
-// draw depends on threads or platforms. Philox 4x32 with 10 rounds (Salmon et al. 2011, "Parallel random numbers: as
-// easy as 1, 2, 3").
+// draw depends on threads. uniform() has the same bits on every platform; normal() those of the log and cos of its
+// mathematics library, which are not rounded correctly everywhere. Philox 4x32 with 10 rounds (Salmon et al. 2011,
+// "Parallel random numbers: as easy as 1, 2, 3").
 #pragma once
 #include <array>
 #include <cmath>

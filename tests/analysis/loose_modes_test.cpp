@@ -12,6 +12,7 @@
 #include "analysis/stiffness/soft_modes.hpp"
 #include "analysis/stiffness/stiffness_matrix.hpp"
 #include "tests/support/random_network.hpp"
+#include "tests/support/skip.hpp"
 
 namespace isostat {
 namespace {
@@ -119,7 +120,7 @@ TEST(SoftModes, AreFoundBesideManyFloppyOnes) {
 
 // Supernodal CHOLMOD and UMFPACK know OpenMP; a run stays one thread.
 TEST(Threads, FactorisationStartsNone) {
-  if (std::getenv("OMP_NUM_THREADS") != nullptr) GTEST_SKIP() << "OMP_NUM_THREADS asks for a number of threads";
+  if (std::getenv("OMP_NUM_THREADS") != nullptr) ISOSTAT_SKIP("OMP_NUM_THREADS asks for a number of threads");
   const auto threads = [] {
     const std::filesystem::directory_iterator tasks("/proc/self/task");
     return std::distance(begin(tasks), end(tasks));

@@ -100,6 +100,18 @@ TEST(scattering, section_has_the_keys_of_the_contract) {
                    5);
 }
 
+TEST(scattering, of_voids_closed_to_rounding_ends) {
+  for (const bool hexagonal : {false, true})
+    for (const double jitter : {0.0, 1e-14, 1e-9, 1e-6})
+      for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        const AnalysisInput input = input_of(oracle::closing_lattice(hexagonal, jitter, seed));
+        for (const auto& intensity : scattering_section(input, {})["I"])
+          EXPECT_TRUE(intensity.is_null() || intensity.get<double>() >= 0);
+        const auto dacf = dacf_section(input, {});
+        EXPECT_NEAR(dacf["C"][0].get<double>(), dacf["solid_fraction"].get<double>(), 1e-3);
+      }
+}
+
 TEST(scattering, refuses_what_it_does_not_apply_to) {
   const auto d = oracle::rsa_disks(20, {7, 7}, 0.25, 0.5, 1);
   auto open = input_of(d);

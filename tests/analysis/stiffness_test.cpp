@@ -7,12 +7,14 @@
 #include "analysis/rigidity/exact_rank.hpp"
 #include "analysis/rigidity/independent_columns.hpp"
 #include "analysis/rigidity/sections.hpp"
+#include "analysis/stiffness/bases.hpp"
 #include "analysis/stiffness/lowest_modes.hpp"
 #include "analysis/stiffness/moduli.hpp"
 #include "analysis/stiffness/soft_modes.hpp"
 #include "analysis/stiffness/stiffness_matrix.hpp"
 #include "analysis/stiffness/vibration.hpp"
 #include "dem/files/network_file.hpp"
+#include "dem/input_error.hpp"
 #include "tests/support/random_network.hpp"
 #include "tests/support/refusal.hpp"
 
@@ -210,6 +212,59 @@ TEST(RigiditySections, RowsWithoutStiffnessAreRefused) {
   input.state.law.tangential_stiffness = 1e5;
   EXPECT_EQ(oracle::refusal(input, "stiffness", options),
             "the law of the state has no rolling stiffness; use --law friction");
+}
+
+// Nothing that could be factorised is left: no link, or none whose rows are not zero (a grain linked to itself).
+TEST(RigiditySections, PackingsWithoutAnIndependentColumn) {
+  for (const char* text :
+       {"grain 1 0 0 .5\n", "cell 3 3\ngrain 1 0 0 .5\n", "cell 9 9\ngrain 1 1 1 .5\ngrain 2 4 4 .4\ngrain 3 7 7 .5\n",
+        "cell 1 1\ngrain 1 0 0 .5\ncontact 1 1 s 1 0\n"})
+    for (const NetworkLaw law : kLaws) {
+      SCOPED_TRACE(text);
+      AnalysisInput input;
+      input.path = "gas.net";
+      input.state.packing = parse_network<2>(text, "gas.net").packing;
+      AnalysisOptions options;
+      options.law = law;
+      const ExactRank rank = exact_rank(input.packing(), law, false);
+      ASSERT_EQ(rank.rank, 0);
+      const auto stiffness = stiffness_section(input, options);
+      EXPECT_EQ(stiffness["inertia"], nlohmann::ordered_json({0, rank.dofs, 0}));
+      EXPECT_EQ(stiffness["factor"]["columns"], 0);
+      EXPECT_EQ(stiffness["factor"]["pivot_ratio"], 1);
+      const auto modes = modes_section(input, options);
+      EXPECT_EQ(modes["omega"].size(), 0u);
+      EXPECT_EQ(modes["zero_modes"], rank.dofs);
+      EXPECT_TRUE(smallest_singular_values(input.packing(), law, false, 3).empty());
+      EXPECT_EQ(floppy_modes(input.packing(), law, false, 100).size(), static_cast<std::size_t>(rank.dofs));
+      EXPECT_EQ(self_stress_states(input.packing(), law, false, 100).size(),
+                static_cast<std::size_t>(rank.hyperstatic));
+      EXPECT_EQ(bases_section(input, options)["floppy_modes"]["of"], rank.dofs);
+      if (!input.packing().cell) continue;
+      const auto moduli = moduli_section(input, options);
+      EXPECT_FALSE(moduli.contains("failed"));
+      if (input.packing().links.empty()) {
+        EXPECT_EQ(moduli["tensor"],
+                  nlohmann::ordered_json::parse("[[0.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]"));
+      }
+    }
+}
+
+TEST(SparseCholesky, TakesMatricesWithoutColumnsOrEntries) {
+  SymmetricMatrix none;
+  none.start = {0};
+  for (const auto form : {SparseCholesky::Form::definite, SparseCholesky::Form::indefinite}) {
+    for (const SymmetricMatrix& empty : {none, SymmetricMatrix{}}) {
+      const SparseCholesky factor(empty, form);
+      EXPECT_EQ(factor.inertia(), (std::array<std::int64_t, 2>{0, 0}));
+      EXPECT_EQ(factor.pivot_ratio(), 1);
+      EXPECT_EQ(factor.factor_entries(), 0);
+      EXPECT_TRUE(factor.solve({}).empty());
+    }
+    SymmetricMatrix zero;
+    zero.size = 3, zero.start = {0, 0, 0, 0};
+    EXPECT_THROW(SparseCholesky(zero, form), FactorisationFailed);
+  }
 }
 
 TEST(RigiditySections, DistantLinksMakeTheStiffnessIndefinite) {

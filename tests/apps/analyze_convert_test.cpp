@@ -58,6 +58,36 @@ TEST_F(AnalyzeConvert, SectionThatDoesNotApplyIsRefusedAndNothingWritten) {
   EXPECT_FALSE(std::filesystem::exists(in_folder("csv")));
 }
 
+TEST_F(AnalyzeConvert, PackingsWithoutAContactAreAnalysed) {
+  write("gas.toml", quick_scene(30));
+  ASSERT_EQ(run("pack" + file("gas.toml") + "-o" + file("gas.h5") +
+                "--set law.attraction=0 --set stage.0.velocity=0 --max-time 0.01")
+                .code,
+            3);
+  write("one.net", "grain 0 0 0 .5\n");
+  write("cell.net", "cell 3 3\ngrain 0 0 0 .5\n");
+  write("far.net", "cell 9 9\ngrain 1 1 1 .5\ngrain 2 4 4 .5\n");
+  write("self.net", "cell 1 1\ngrain 1 0 0 .5\ncontact 1 1 s 1 0\n");
+  for (const auto& [name, grains] :
+       {std::pair{"gas.h5", 30}, {"one.net", 1}, {"cell.net", 1}, {"far.net", 2}, {"self.net", 1}}) {
+    const Outcome all = run("analyze" + file(name) + "--json" + file("all.json") + "--csv" + file("csv"));
+    EXPECT_EQ(all.code, 0) << name << '\n' << all.err;
+    EXPECT_TRUE(Json::parse(content(in_folder("all.json"))).contains("stiffness")) << name;
+    const Outcome o = run("analyze" + file(name) + "--only stiffness,modes,bases,rigidity --json -");
+    ASSERT_EQ(o.code, 0) << name << '\n' << o.err;
+    const Json json = Json::parse(o.out);
+    EXPECT_EQ(json["stiffness"]["inertia"], Json::array({0, 3 * grains, 0})) << name;
+    EXPECT_EQ(json["modes"]["omega"], Json::array()) << name;
+    EXPECT_EQ(json["rigidity"]["K"], 3 * grains) << name;
+    EXPECT_EQ(run("analyze" + file(name) + "--only moduli").code, name == std::string("one.net") ? 2 : 0) << name;
+  }
+}
+
+TEST_F(AnalyzeConvert, VoidsThatAreClosedButForRoundingAreScattered) {
+  write("closing.net", "cell 2 1\ngrain 1 1e-9 0 .5\ngrain 2 1 1e-9 .5\ngrain 3 .5 .5 .5\ngrain 4 1.5 .5 .5\n");
+  EXPECT_EQ(run("analyze" + file("closing.net") + "--only scattering,dacf,pores --json -").code, 0);
+}
+
 TEST_F(AnalyzeConvert, BadUsageNamesOptionAndValue) {
   const std::string net = kClusters + "k23.net ";
   for (const auto& [arguments, message] : std::initializer_list<std::pair<std::string, std::string>>{

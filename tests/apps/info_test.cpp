@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "dem/files/state_file.hpp"
+#include "dem/files/state_seal.hpp"
 #include "dem/scene/file.hpp"
 #include "tests/apps/program.hpp"
 
@@ -42,7 +43,7 @@ TEST_F(InfoCommand, PrintsTheContract) {
   const Outcome o = run("info " + in_folder("state.h5"));
   ASSERT_EQ(o.code, 0) << o.err;
   const json j = json::parse(o.out);
-  EXPECT_EQ(j["format_version"], 3);
+  EXPECT_EQ(j["format_version"], kStateFormatVersion);
   EXPECT_EQ(j["hash"], read_state_file(in_folder("state.h5")).hash);
   EXPECT_EQ(j["cell"], json({4.0, 5.0}));
   EXPECT_EQ(j["time"], 12.5);

@@ -1,16 +1,13 @@
 // isostat pack: exit codes, files, interruption and resumption, observers, runs that blow up.
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <unistd.h>
 
-#include <chrono>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "dem/disks/physical_hash.hpp"
 #include "dem/files/state_file.hpp"
+#include "tests/apps/child.hpp"
 #include "tests/apps/program.hpp"
 
 namespace isostat {
@@ -37,17 +34,9 @@ class Pack : public Program {
 
   // Starts the program, waits until the series has so many lines, sends the signal; the exit code.
   int interrupted(const std::string& arguments, const std::string& series, std::size_t rows, int signal) const {
-    const std::string command = "exec " ISOSTAT_PROGRAM " " + arguments + " 2>" + in_folder("stderr");
-    const pid_t child = ::fork();
-    if (child == 0) {
-      ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
-      ::_exit(99);
-    }
-    for (int k = 0; k < 6000 && lines(series).size() < rows; ++k)
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    ::kill(child, signal);
-    int status = 0;
-    ::waitpid(child, &status, 0);
+    Child child(ISOSTAT_PROGRAM " " + arguments + " 2>" + in_folder("stderr"), in_folder(""));
+    EXPECT_TRUE(child.wait_for([&] { return lines(series).size() >= rows; })) << content(in_folder("stderr"));
+    const int status = child.end_by(signal);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
 };

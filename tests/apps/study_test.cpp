@@ -2,16 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <unistd.h>
 
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "analysis/figure/data_table.hpp"
 #include "dem/files/state_file.hpp"
+#include "tests/apps/child.hpp"
 #include "tests/apps/program.hpp"
 
 namespace isostat {
@@ -147,12 +145,6 @@ output.series = "on"
   ASSERT_EQ(run(study("straight", "-j 2")).code, 0);
   double reached = 0;  // [T0] where run 1 can be resumed
   for (const int signal : {SIGTERM, SIGINT, SIGKILL}) {
-    const std::string command = "exec " ISOSTAT_PROGRAM " " + study("cut", "-j 2") + " 2>" + in_folder("stderr");
-    const pid_t child = ::fork();
-    if (child == 0) {
-      ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
-      ::_exit(99);
-    }
     // When run 1 has got some way further than the last time.
     const std::string series = in_folder("cut/scene.0001.series.csv"), partial = in_folder("cut/scene.0001.h5.partial");
     const auto rows = [&] {
@@ -160,14 +152,17 @@ output.series = "on"
       return std::count(all.begin(), all.end(), '\n');
     };
     const auto enough = rows() + 20;
-    for (int k = 0; k < 3000 && rows() < enough; ++k) std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    ::kill(child, signal);
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    if (signal == SIGKILL) {  // the runs see that they are alone, and stop by themselves
+    Child child(ISOSTAT_PROGRAM " " + study("cut", "-j 2") + " 2>" + in_folder("stderr"), in_folder("cut"));
+    EXPECT_TRUE(child.wait_for([&] { return rows() >= enough; })) << text("stderr");
+    const int status = child.end_by(signal);
+    if (signal == SIGKILL) {
       EXPECT_TRUE(WIFSIGNALED(status));
-      for (int k = 0; k < 1000 && read_state<Disks>(partial).time <= reached; ++k)
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      // The runs see that they are alone and stop by themselves; until then they hold the folder.
+      const StudyLock lock(in_folder("cut"));
+      ASSERT_TRUE(lock.held());
+      const Outcome second = run(study("cut"));
+      EXPECT_EQ(second.code, 2);
+      EXPECT_THAT(second.err, HasSubstr("is in use by another isostat study"));
     } else {
       ASSERT_TRUE(WIFEXITED(status));
       EXPECT_EQ(WEXITSTATUS(status), 130) << text("stderr");
@@ -179,14 +174,7 @@ output.series = "on"
     reached = read_state<Disks>(partial).time;
     EXPECT_FALSE(exists("cut/scene.0001.h5"));
   }
-  Outcome last{2, "", ""};
-  for (int k = 0; k < 1000 && last.code == 2; ++k) {  // while the runs of the killed one still hold the folder
-    last = run(study("cut"));
-    if (last.code == 2) {
-      ASSERT_THAT(last.err, HasSubstr("is in use by another isostat study"));
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-  }
+  const Outcome last = run(study("cut"));
   ASSERT_EQ(last.code, 0) << last.err;
   for (const char* name : {"study.csv", "scene.0001.h5", "scene.0002.h5", "scene.0003.h5", "scene.0001.series.csv"})
     EXPECT_EQ(text("cut/" + std::string(name)), text("straight/" + std::string(name))) << name;

@@ -43,7 +43,7 @@ oracle::Disks square_side(double n, double fraction) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char**) {
   const bool large = argc > 1;
   std::printf("kind,disks,pores,cpu_ms,cpu_us_per_disk,mesh_a100_cpu_ms,area_closure\n");
   for (const std::size_t n : {1400u, 5600u, 100000u, 1000000u}) {

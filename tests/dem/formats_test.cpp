@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "dem/files/atomic_file.hpp"
 #include "dem/files/formats/csv.hpp"
 #include "dem/files/formats/dump.hpp"
 #include "dem/files/formats/vtp.hpp"
@@ -13,7 +14,6 @@
 #include "dem/files/network_file.hpp"
 #include "dem/files/packing_file.hpp"
 #include "dem/files/state_file.hpp"
-#include "dem/files/text_output.hpp"
 #include "dem/input_error.hpp"
 #include "tests/oracle/network_oracle.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -78,7 +78,7 @@ TEST(Csv, RoundTripIsBitForBit) {
   TemporaryFolder dir;
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     const Packing<2> p = with_kinds(oracle::random_packing(seed, 20, 40, true));
-    write_text_files({{dir / "p.grains.csv", grains_csv(p)}, {dir / "p.contacts.csv", contacts_csv(p)}});
+    write_files_atomically({{dir / "p.grains.csv", grains_csv(p)}, {dir / "p.contacts.csv", contacts_csv(p)}});
     PackingReading reading;
     reading.box = {p.cell->length[0], p.cell->length[1]};
     for (const char* name : {"p.csv", "p.grains.csv"}) {
@@ -95,7 +95,7 @@ TEST(Csv, RoundTripIsBitForBit) {
 TEST(Csv, RoundTripInSpace) {
   TemporaryFolder dir;
   const Packing<3> p = spheres();
-  write_text_files({{dir / "p.grains.csv", grains_csv(p)}, {dir / "p.contacts.csv", contacts_csv(p)}});
+  write_files_atomically({{dir / "p.grains.csv", grains_csv(p)}, {dir / "p.contacts.csv", contacts_csv(p)}});
   PackingReading reading;
   reading.box = {3.1, 4.2, 5.3};
   const PackingFile file = read_packing(dir / "p.csv", reading);
@@ -114,7 +114,7 @@ TEST(Csv, ColumnsOfTheContract) {
 
 TEST(Csv, ForeignGrainsAloneFindTheirContacts) {
   TemporaryFolder dir;
-  write_text_files({{dir / "g.csv", "r, id, y, x, colour\n0.5,7,0,0.25,red\n0.5,9,0,3.25,blue\n"}});
+  write_files_atomically({{dir / "g.csv", "r, id, y, x, colour\n0.5,7,0,0.25,red\n0.5,9,0,3.25,blue\n"}});
   EXPECT_TRUE(read_packing(dir / "g.csv").state.packing.links.empty());
   PackingReading reading;
   reading.box = {4, 4};  // periodic: they touch across the edge
@@ -127,7 +127,7 @@ TEST(Csv, ForeignGrainsAloneFindTheirContacts) {
 
 TEST(Csv, ContactsWithoutShiftsMeanTheNearestImage) {
   TemporaryFolder dir;
-  write_text_files(
+  write_files_atomically(
       {{dir / "g.grains.csv", "id,x,y,r\n1,0.25,0,0.5\n2,3.25,0,0.5\n"}, {dir / "g.contacts.csv", "i,j\n1,2\n"}});
   PackingReading reading;
   reading.box = {4, 4};
@@ -147,18 +147,18 @@ std::string faults_of(const std::string& path, const PackingReading& reading = {
 
 TEST(Csv, ListsEveryFaultWithItsLine) {
   TemporaryFolder dir;
-  write_text_files({{dir / "g.csv", "id,x,y,r\n1,0,0,-1\n1,nan,0,0.5\nq,0,0,0.5\n"}});
+  write_files_atomically({{dir / "g.csv", "id,x,y,r\n1,0,0,-1\n1,nan,0,0.5\nq,0,0,0.5\n"}});
   const std::string text = faults_of(dir / "g.csv");
   EXPECT_THAT(text, HasSubstr("g.csv:2: r = -1: must be positive"));
   EXPECT_THAT(text, HasSubstr("g.csv:3: id = 1: ids are distinct; used before in line 2"));
   EXPECT_THAT(text, HasSubstr("g.csv:3: x = nan: must be a finite number"));
   EXPECT_THAT(text, HasSubstr("g.csv:4: id = q: must be an integer"));
-  write_text_files({{dir / "g.csv", "id,x,y\n1,2\n"}});
+  write_files_atomically({{dir / "g.csv", "id,x,y\n1,2\n"}});
   EXPECT_THAT(faults_of(dir / "g.csv"), HasSubstr("g.csv:2: 2 fields"));
-  write_text_files({{dir / "g.csv", "id,x\n1,2\n"}});
+  write_files_atomically({{dir / "g.csv", "id,x\n1,2\n"}});
   EXPECT_THAT(faults_of(dir / "g.csv"),
               ::testing::AllOf(HasSubstr("r: column is missing"), HasSubstr("y: column is missing")));
-  write_text_files(
+  write_files_atomically(
       {{dir / "g.csv", "id,x,y,r\n1,0,0,1\n"}, {dir / "g.contacts.csv", "i,j,s1,s2,kind\n1,3,0,0,c\n1,1,1,0,q\n"}});
   EXPECT_THAT(faults_of(dir / "g.csv"),
               ::testing::AllOf(HasSubstr("contacts.csv:2: j = 3: is the id of no grain"),
@@ -169,7 +169,7 @@ TEST(Dump, RoundTripIsBitForBit) {
   TemporaryFolder dir;
   for (const bool periodic : {true, false}) {
     const Packing<2> p = with_kinds(oracle::random_packing(4, 15, 30, periodic));
-    write_text_files({{dir / "p.dump", grains_dump(p, 12)}, {dir / "p.contacts.dump", links_dump(p, 12)}});
+    write_files_atomically({{dir / "p.dump", grains_dump(p, 12)}, {dir / "p.contacts.dump", links_dump(p, 12)}});
     const PackingFile file = read_packing(dir / "p.dump");
     EXPECT_EQ(file.format, PackingFormat::dump);
     EXPECT_EQ(file.state.packing.cell.has_value(), periodic);
@@ -181,7 +181,8 @@ TEST(Dump, RoundTripIsBitForBit) {
     EXPECT_EQ(file.state.packing.bodies.inertia, p.bodies.inertia);
     expect_same_links(file.state.packing.links, p.links);
   }
-  write_text_files({{dir / "s.dump", grains_dump(spheres(), 0)}, {dir / "s.contacts.dump", links_dump(spheres(), 0)}});
+  write_files_atomically(
+      {{dir / "s.dump", grains_dump(spheres(), 0)}, {dir / "s.contacts.dump", links_dump(spheres(), 0)}});
   const PackingFile file = read_packing(dir / "s.dump");
   ASSERT_TRUE(file.packing_3d);
   expect_same_motion(file.packing_3d->bodies, spheres().bodies);
@@ -196,7 +197,7 @@ constexpr const char* kForeignDump =
 
 TEST(Dump, ReadsTheLastFrameInScaledCoordinates) {
   TemporaryFolder dir;
-  write_text_files({{dir / "l.dump", kForeignDump}});
+  write_files_atomically({{dir / "l.dump", kForeignDump}});
   const Packing<2> p = read_packing(dir / "l.dump").state.packing;
   EXPECT_EQ(p.cell->length, (Vec2{{4, 8}}));
   EXPECT_EQ(p.bodies.id, (std::vector<std::int64_t>{5, 6}));
@@ -207,13 +208,14 @@ TEST(Dump, ReadsTheLastFrameInScaledCoordinates) {
 TEST(Dump, RefusesTruncatedTiltedAndForeignText) {
   TemporaryFolder dir;
   const std::string whole = kForeignDump;
-  write_text_files({{dir / "l.dump", whole.substr(0, whole.find("6 0.75"))}});
+  write_files_atomically({{dir / "l.dump", whole.substr(0, whole.find("6 0.75"))}});
   EXPECT_THAT(faults_of(dir / "l.dump"), HasSubstr("1 rows are missing"));
-  write_text_files({{dir / "l.dump", "ITEM: BOX BOUNDS xy xz yz pp pp pp\n"}});
+  write_files_atomically({{dir / "l.dump", "ITEM: BOX BOUNDS xy xz yz pp pp pp\n"}});
   EXPECT_THAT(faults_of(dir / "l.dump"), HasSubstr("tilted"));
-  write_text_files({{dir / "l.dump",
-                     "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp ff pp\n0 1\n0 1\n0 1\nITEM: "
-                     "ATOMS id x y radius\n5 0 0 1\n"}});
+  write_files_atomically(
+      {{dir / "l.dump",
+        "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp ff pp\n0 1\n0 1\n0 1\nITEM: "
+        "ATOMS id x y radius\n5 0 0 1\n"}});
   EXPECT_THAT(faults_of(dir / "l.dump"), HasSubstr("periodic along all axes"));
 }
 
@@ -226,7 +228,7 @@ TEST(PackingFile, DamagedTextIsReadOrRefused) {
                                                                {"p.dump", grains_dump(p, 0)},
                                                                {"p.contacts.dump", links_dump(p, 0)},
                                                                {"p.net", network_text(p)}};
-  for (const auto& [name, content] : files) write_text_files({{dir / name, content}});
+  for (const auto& [name, content] : files) write_files_atomically({{dir / name, content}});
   int refused = 0;
   for (const auto& [name, content] : files) {
     const std::string read = name.ends_with(".csv") ? "p.csv" : name.ends_with(".dump") ? "p.dump" : name;
@@ -234,7 +236,7 @@ TEST(PackingFile, DamagedTextIsReadOrRefused) {
       for (const bool cut : {true, false}) {
         std::string damaged = content.substr(0, at);
         if (!cut) damaged += "9e99" + content.substr(at + 1);
-        write_text_files({{dir / name, damaged}});
+        write_files_atomically({{dir / name, damaged}});
         try {
           read_packing(dir / read);
         } catch (const InputError& error) {
@@ -242,21 +244,21 @@ TEST(PackingFile, DamagedTextIsReadOrRefused) {
           EXPECT_FALSE(error.faults().empty());
         }
       }
-    write_text_files({{dir / name, content}});
+    write_files_atomically({{dir / name, content}});
   }
   EXPECT_GT(refused, 50);
 }
 
 TEST(PackingFile, CellOfOtherUnitsIsRefused) {
   TemporaryFolder dir;
-  write_text_files({{dir / "g.csv", "id,x,y,r\n1,0,0,1\n"}, {dir / "g.net", "cell 1e-4 1\ngrain 1 0 0 1\n"}});
+  write_files_atomically({{dir / "g.csv", "id,x,y,r\n1,0,0,1\n"}, {dir / "g.net", "cell 1e-4 1\ngrain 1 0 0 1\n"}});
   PackingReading reading;
   reading.box = {1, 0.09};
   EXPECT_THAT(faults_of(dir / "g.csv", reading), HasSubstr("below 0.1 of the largest radius"));
   reading.box = {1, 0.11};
   EXPECT_EQ(faults_of(dir / "g.csv", reading), "accepted");
   EXPECT_THAT(faults_of(dir / "g.net"), HasSubstr("g.net:1: cell: an edge is below 0.1 of the largest radius"));
-  write_text_files({{dir / "g.csv", "id,x,y,r\n1,1e9,0,1\n"}});
+  write_files_atomically({{dir / "g.csv", "id,x,y,r\n1,1e9,0,1\n"}});
   EXPECT_THAT(faults_of(dir / "g.csv", reading), HasSubstr("1e8 cells away"));
 }
 
@@ -264,7 +266,7 @@ TEST(PackingFile, CellOfOtherUnitsIsRefused) {
 TEST(PackingFile, LengthsBeyondTheNumbersAreRefused) {
   TemporaryFolder dir;
   const auto faults = [&](const std::string& name, const std::string& text) {
-    write_text_files({{dir / name, text}});
+    write_files_atomically({{dir / name, text}});
     return faults_of(dir / name);
   };
   EXPECT_THAT(faults("g.csv", "id,x,y,r\n1,0,0,1e-200\n2,1,0,1e-201\n"), HasSubstr("inertia"));
@@ -282,17 +284,17 @@ TEST(PackingFile, LengthsBeyondTheNumbersAreRefused) {
 
 TEST(PackingFile, IsKnownByItsContent) {
   TemporaryFolder dir;
-  write_text_files({{dir / "state.csv", std::string("\x89HDF\r\n\x1a\n", 8)},
-                    {dir / "net.csv", "# a network\n\ngrain 1 0 0 1\n"},
-                    {dir / "dump.net", "ITEM: TIMESTEP\n"},
-                    {dir / "grains.txt", "id,x,y,r\n1,0,0,1\n"},
-                    {dir / "prose.txt", "Once upon a time\n"},
-                    {dir / "empty", ""}});
+  write_files_atomically({{dir / "state.csv", std::string("\x89HDF\r\n\x1a\n", 8)},
+                          {dir / "net.csv", "# a network\n\ngrain 1 0 0 1\n"},
+                          {dir / "dump.net", "ITEM: TIMESTEP\n"},
+                          {dir / "grains.txt", "id,x,y,r\n1,0,0,1\n"},
+                          {dir / "prose.txt", "Once upon a time\n"},
+                          {dir / "empty", ""}});
   EXPECT_EQ(sniff_packing_format(dir / "state.csv"), PackingFormat::state);
   EXPECT_EQ(sniff_packing_format(dir / "net.csv"), PackingFormat::network);
   EXPECT_EQ(sniff_packing_format(dir / "dump.net"), PackingFormat::dump);
   EXPECT_EQ(sniff_packing_format(dir / "grains.txt"), PackingFormat::csv);
-  write_text_files({{dir / "bytes", std::string("1,2\n\0\1", 6)}, {dir / "prose.h5", "Once upon a time"}});
+  write_files_atomically({{dir / "bytes", std::string("1,2\n\0\1", 6)}, {dir / "prose.h5", "Once upon a time"}});
   EXPECT_THROW(sniff_packing_format(dir / "bytes"), InputError);
   EXPECT_THAT(faults_of(dir / "prose.h5"), HasSubstr("prose.h5"));
   EXPECT_THROW(sniff_packing_format(dir / "prose.txt"), InputError);
@@ -317,8 +319,8 @@ TEST(PackingFile, StateRoundTrip) {
 
 TEST(PackingFile, BoxGoesOnlyToWhatHasNone) {
   TemporaryFolder dir;
-  write_text_files({{dir / "c.net", "cell 4 4\ngrain 1 0 0 1\n"},
-                    {dir / "i.net", "grain 1 0.5 0 1\ngrain 2 3.5 0 1\ncontact 1 2 c\n"}});
+  write_files_atomically({{dir / "c.net", "cell 4 4\ngrain 1 0 0 1\n"},
+                          {dir / "i.net", "grain 1 0.5 0 1\ngrain 2 3.5 0 1\ncontact 1 2 c\n"}});
   PackingReading reading;
   reading.box = {4, 4};
   EXPECT_THAT(faults_of(dir / "c.net", reading), HasSubstr("has its own cell"));
@@ -331,9 +333,9 @@ TEST(PackingFile, BoxGoesOnlyToWhatHasNone) {
 
 TEST(TextOutput, AllFilesOrNone) {
   TemporaryFolder dir;
-  EXPECT_THROW(write_text_files({{dir / "a", "1"}, {dir / "no/such/b", "2"}}), InputError);
+  EXPECT_THROW(write_files_atomically({{dir / "a", "1"}, {dir / "no/such/b", "2"}}), InputError);
   EXPECT_EQ(dir.entries(), 0u);
-  write_text_files({{dir / "a", "1"}, {dir / "b", "2"}});
+  write_files_atomically({{dir / "a", "1"}, {dir / "b", "2"}});
   EXPECT_EQ(dir.entries(), 2u);
 }
 

@@ -14,6 +14,7 @@
 #include "dem/solver/neighbours.hpp"
 #include "dem/solver/random.hpp"
 #include "tests/oracle/disk_reference.hpp"
+#include "tests/support/machine_isas.hpp"
 
 namespace isostat {
 namespace {
@@ -21,13 +22,6 @@ namespace {
 constexpr std::size_t kPairs = 237, kListed = 240;  // a multiple of the batch with three padding pairs
 static_assert(kListed % kPairBatch == 0);
 constexpr double kRounding = 1e-13;  // of the largest force
-
-std::vector<Isa> machine_isas() {
-  std::vector<Isa> list;
-  for (Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512})
-    if (isa <= best_isa()) list.push_back(isa);
-  return list;
-}
 
 struct LawCase {
   bool adhesion, damping, friction, rolling;

@@ -303,5 +303,18 @@ TEST(SceneDocumentation, IsTheTable) {
   EXPECT_EQ(slurp(page), scene_documentation()) << "run the tests with ISOSTAT_REGENERATE=1";
 }
 
+TEST(SceneDocumentation, EveryRowOfATableHasItsFiveCells) {
+  std::istringstream page(scene_documentation());
+  int rows = 0;
+  for (std::string line; std::getline(page, line);) {
+    if (!line.starts_with('|')) continue;
+    int cells = -1;
+    for (std::size_t k = 0; k < line.size(); ++k) cells += line[k] == '|' && (k == 0 || line[k - 1] != '\\');
+    EXPECT_EQ(cells, 5) << line;
+    ++rows;
+  }
+  EXPECT_GT(rows, 40);
+}
+
 }  // namespace
 }  // namespace isostat

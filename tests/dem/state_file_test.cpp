@@ -24,6 +24,7 @@
 #include "dem/files/state_seal.hpp"
 #include "dem/input_error.hpp"
 #include "tests/support/random_state.hpp"
+#include "tests/support/skip.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace isostat {
@@ -252,8 +253,7 @@ TEST(StateFile, UnwritablePathsAreBadInput) {
 
 // The reader printed in docs/formats.md, run as it stands.
 TEST(StateFile, IsReadByTheTenLinesOfTheDocumentation) {
-  if (std::system("/usr/bin/python3 -c 'import h5py' 2>/dev/null") != 0)
-    GTEST_SKIP() << "no /usr/bin/python3 with h5py";
+  if (std::system("/usr/bin/python3 -c 'import h5py' 2>/dev/null") != 0) ISOSTAT_SKIP("no /usr/bin/python3 with h5py");
   std::ifstream page(std::filesystem::path(ISOSTAT_DATA).parent_path() / "docs/formats.md");
   std::ostringstream text;
   text << page.rdbuf();

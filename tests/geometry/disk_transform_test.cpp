@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "geometry/pores.hpp"
+#include "geometry/wall_points.hpp"
 #include "tests/oracle/direct_transform.hpp"
 
 namespace isostat {
@@ -113,6 +114,40 @@ TEST(disk_transform, any_overlaps_at_all) {
     EXPECT_LT(deviation(d, t, oracle::boundary_integral, 5), 1e-7);
     EXPECT_NEAR(t.at(0, 0).real(), find_pores(d.centre, d.radius, d.cell).covered_area, 1e-7);
   }
+}
+
+TEST(wall_points, of_voids_closed_to_rounding_are_few_and_finite) {
+  std::size_t closed = 0;
+  for (const bool hexagonal : {false, true})
+    for (const double jitter : {0.0, 1e-15, 1e-14, 1e-12, 1e-9, 1e-6, 1e-3})
+      for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        const Disks d = oracle::closing_lattice(hexagonal, jitter, seed);
+        for (const auto& arc : find_pores(d.centre, d.radius, d.cell, {.with_arcs = true}).arcs)
+          closed += arc.sweep < 0;
+        const auto walls = wall_points(d.centre, d.radius, d.cell, 40, 1e-10);
+        ASSERT_LT(walls.at.size(), 50u * 6 * d.centre.size());
+        double sum_x = 0, sum_y = 0;
+        for (std::size_t n = 0; n < walls.at.size(); ++n) {
+          ASSERT_TRUE(std::isfinite(walls.at[n][0] + walls.at[n][1]));
+          sum_x += walls.normal_x[n], sum_y += walls.normal_y[n];
+        }
+        EXPECT_NEAR(sum_x, 0, 1e-13);  // walls are closed
+        EXPECT_NEAR(sum_y, 0, 1e-13);
+      }
+  EXPECT_GT(closed, 100u) << "no wall of the kind that the test is for";
+}
+
+TEST(disk_transform, voids_that_nearly_close) {
+  for (const double jitter : {1e-9, 1e-6, 1e-2}) {
+    const Disks d = oracle::closing_lattice(false, jitter, 2);
+    EXPECT_LT(deviation(d, transform_of(d, {.k_max = 40}), oracle::boundary_integral, 7), 1e-7) << jitter;
+  }
+}
+
+TEST(disk_transform, many_waves_along_one_arc) {  // a phase of +-1500: the series behind the number of points overflows
+  const Disks d{{{1.7, 1.7}}, {{1, 1}, {1.3, 1.1}, {1.1, 1.3}}, {0.8, 0.4, 0.4}};
+  const auto t = transform_of(d, {.k_max = 1200});
+  EXPECT_LT(deviation(d, t, oracle::boundary_integral, 97), 1e-7);
 }
 
 TEST(disk_transform, cells_of_aspect_ratio_100_and_one_disk) {

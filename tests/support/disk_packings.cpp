@@ -102,4 +102,18 @@ Disks chain_disks(std::size_t walls, Vec2 length, double overlap, std::uint64_t 
   return d;
 }
 
+Disks closing_lattice(bool hexagonal, double jitter, std::uint64_t seed) {
+  std::mt19937_64 g(seed);
+  const double row = hexagonal ? std::sqrt(0.75) : 0.5;
+  const int rows = hexagonal ? 4 : 6;
+  Disks d{{{3, rows * row}}, {}, {}};
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < 3; ++x) {
+      const double dx = g() % 2 ? 0 : uniform(g, -jitter, jitter), dy = g() % 2 ? 0 : uniform(g, -jitter, jitter);
+      d.centre.push_back({x + 0.5 * (y % 2) + dx, y * row + dy});
+      d.radius.push_back(hexagonal ? 1 / std::sqrt(3.0) : 0.5);
+    }
+  return d;
+}
+
 }  // namespace isostat::oracle

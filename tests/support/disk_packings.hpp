@@ -26,4 +26,8 @@ Disks rsa_disks(std::size_t n, Vec2 length, double r_min, double r_max, std::uin
 // loose inside; islands, thin walls and pores of all sizes.
 Disks chain_disks(std::size_t walls, Vec2 length, double overlap, std::uint64_t seed);
 
+// Square or hexagonal lattice whose voids are closed but for rounding; half of the coordinates moved by up to `jitter`,
+// so that many of the corners of voids still coincide.
+Disks closing_lattice(bool hexagonal, double jitter, std::uint64_t seed);
+
 }  // namespace isostat::oracle

@@ -15,6 +15,9 @@
 #if defined(__AVX2__)
 #include <immintrin.h>
 #endif
+#if defined(__AVX512F__) && defined(__clang__)
+#include "dem/disks/kernel/lanes512.hpp"
+#endif
 
 // Always inlined: a copy emitted out of line by the translation unit of one instruction set could be the one that the
 // linker keeps for all of them.
@@ -87,7 +90,11 @@ ISOSTAT_INLINE void add_load_pair(double* loads, RowOffset i, RowOffset j, __m25
 #endif
 
 #if defined(__AVX512F__)
+#if defined(__clang__)
+using Native = Lanes512;
+#else
 using Native = stdx::simd<double, stdx::simd_abi::__avx512>;
+#endif
 
 ISOSTAT_INLINE PairDifference<Native> load_differences(const double* rows, const RowOffset* i, const RowOffset* j,
                                                        Native) {

@@ -4,7 +4,7 @@
 #include <array>
 #include <charconv>
 
-#include "dem/files/text_output.hpp"
+#include "dem/files/formats/real_text.hpp"
 
 namespace isostat {
 namespace {

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <unordered_map>
 
 #include "dem/state/link_ends.hpp"
@@ -106,16 +103,6 @@ void set_masses(Bodies<D>& b, bool masses_given) {
 }
 
 }  // namespace
-
-std::string read_text_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::error_code ignored;
-  if (!file || std::filesystem::is_directory(path, ignored))
-    throw InputError(path, 0, "", "", "cannot be read; give an existing file");
-  std::ostringstream text;
-  text << file.rdbuf();
-  return std::move(text).str();
-}
 
 std::optional<std::size_t> TextTable::column(std::string_view name) const {
   const auto at = std::find(columns.begin(), columns.end(), name);

@@ -11,9 +11,6 @@
 
 namespace isostat {
 
-// The whole file. Throws InputError if it cannot be read.
-std::string read_text_file(const std::string& path);
-
 struct TextTable {
   std::string path;
   int first_line = 0;  // line number of the first row

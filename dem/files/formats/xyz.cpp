@@ -1,6 +1,6 @@
 #include "dem/files/formats/xyz.hpp"
 
-#include "dem/files/text_output.hpp"
+#include "dem/files/formats/real_text.hpp"
 
 namespace isostat {
 namespace {

@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "analysis/structure/fractal_fit.hpp"
+#include "dem/files/atomic_file.hpp"
 #include "dem/input_error.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -163,17 +165,24 @@ TEST(PoresPlot, CountsThePoresThatAreLarger) {
   EXPECT_EQ(curve.y, (std::vector{3.0, 2.0, 2.0, 1.0, 1.0, 0.0}));
 }
 
+// tests/golden/soft-particle.json has what `lab soft-particle --json` is to write: the keys of the contract, undefined
+// numbers null.
 TEST(LawFitPlot, FollowsEquation7) {
-  const Json result = {
-      {"normal", {{{"delta", 0.1}, {"F", 0.08}, {"F_error", 0.01}}, {{"delta", 0.3}, {"F", 2.5}, {"F_error", 0.1}}}},
-      {"tangential", {{{"delta", 0.2}, {"k_t", 0.02}, {"k_t_error", 0.005}}}},
-      {"fit", {{"a", 73.669}, {"b", 2.799}, {"c", -0.035}, {"delta", 0.065}}}};
-  const Plot plot = json_plot("law-fit").make(result, "r.json");
+  const std::string path = ISOSTAT_DATA "/../tests/golden/soft-particle.json";
+  const Json result = Json::parse(read_whole_file(path));
+  const auto of_its_kind = [&](const JsonPlot& p) { return p.applies(result); };
+  ASSERT_EQ(std::count_if(json_plots().begin(), json_plots().end(), of_its_kind), 1);
+  const Plot plot = json_plot("law-fit").make(result, path);
   ASSERT_EQ(plot.charts.size(), 2u);
+  EXPECT_EQ(plot.charts[0].curves[0].x, (std::vector{0.05, 0.1, 0.3}));
+  EXPECT_EQ(plot.charts[0].curves[0].y, (std::vector{0.0, 0.08, 2.5}));
+  EXPECT_EQ(plot.charts[0].curves[0].error, (std::vector{0.0, 0.01, 0.1}));
   const Curve& fit = plot.charts[0].curves[1];
   for (std::size_t k = 0; k < fit.x.size(); ++k)
     EXPECT_DOUBLE_EQ(fit.y[k], fit.x[k] < 0.065 ? 0 : 73.669 * std::pow(fit.x[k], 2.799) - 0.035);
-  EXPECT_EQ(plot.charts[1].curves[0].error, (std::vector{0.005}));
+  EXPECT_EQ(plot.charts[1].curves[0].x, (std::vector{0.1, 0.2}));
+  EXPECT_EQ(plot.charts[1].curves[0].y[1], 0.02);
+  EXPECT_EQ(plot.charts[1].curves[0].error[1], 0.005);
 }
 
 TEST(DataTable, ReadsNumbersTextAndQuotes) {

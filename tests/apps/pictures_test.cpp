@@ -1,0 +1,78 @@
+// The look of every picture and plot, held by one approved SVG each in tests/golden/pictures: the same marks in the
+// same order, coordinates to a fiftieth of a point. With ISOSTAT_REGENERATE=1 they are written anew: look at them
+// before they are committed.
+#include <cmath>
+#include <cstdlib>
+#include <regex>
+
+#include "tests/apps/program.hpp"
+
+namespace isostat {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr double kSamePlace = 0.02;  // [pt]; the last digit written is 0.01
+
+class Pictures : public Program {
+ protected:
+  static std::string golden(const std::string& name) {
+    return (fs::path(ISOSTAT_DATA).parent_path() / "tests/golden/pictures" / name).string();
+  }
+
+  // Where two pictures differ first; empty if they do not.
+  static std::string difference(const std::string& a, const std::string& b) {
+    static const std::regex number("-?[0-9]*\\.?[0-9]+");
+    std::sregex_iterator x(a.begin(), a.end(), number), y(b.begin(), b.end(), number);
+    const std::sregex_iterator end;
+    for (; x != end && y != end; ++x, ++y) {
+      if (x->prefix() != y->prefix()) return "'" + x->prefix().str() + "' is '" + y->prefix().str() + "'";
+      const std::string at = " after '" + x->prefix().str() + "'";
+      if (std::abs(std::stod(x->str()) - std::stod(y->str())) > kSamePlace) return x->str() + " is " + y->str() + at;
+    }
+    return x == end && y == end ? "" : "one has more marks than the other";
+  }
+
+  // Seven grains in a cell, with forces of both signs, as a state.
+  std::string packing() const {
+    EXPECT_EQ(run("convert " + golden("packing.grains.csv") + " --box 2.9,2.2 -o " + in_folder("packing.h5")).code, 0);
+    return in_folder("packing.h5");
+  }
+
+  void expect_approved(const std::string& command, const std::string& name) const {
+    const Outcome o = run(command + " -o " + in_folder(name));
+    ASSERT_EQ(o.code, 0) << name << ": " << o.err;
+    if (std::getenv("ISOSTAT_REGENERATE"))
+      fs::copy_file(in_folder(name), golden(name), fs::copy_options::overwrite_existing);
+    ASSERT_TRUE(fs::exists(golden(name))) << name;
+    EXPECT_EQ(difference(content(golden(name)), content(in_folder(name))), "") << name;
+  }
+};
+
+TEST_F(Pictures, OfAPacking) {
+  const std::string draw = "draw " + packing() + " --what ";
+  for (const std::string what : {"grains", "forces", "velocity"}) expect_approved(draw + what, what + ".svg");
+  expect_approved(draw + "forces --threshold 0.045 --width total", "threshold.svg");
+  expect_approved("draw " + golden("cluster.net") + " --what modes --mode 2", "modes.svg");
+  expect_approved("draw " + golden("holes.net") + " --what pores", "pores.svg");
+  expect_approved("draw " ISOSTAT_DATA "/clusters/double_triangle.net --what clusters", "clusters.svg");
+}
+
+TEST_F(Pictures, OfResults) {
+  ASSERT_EQ(run("analyze " + packing() + " --only counts,forces --json " + in_folder("r.json")).code, 0);
+  ASSERT_EQ(
+      run("analyze " ISOSTAT_DATA "/clusters/periodic_free_cluster.net --only scattering --json " + in_folder("s.json"))
+          .code,
+      0);
+  ASSERT_EQ(run("analyze " + golden("holes.net") + " --only pores --json " + in_folder("p.json")).code, 0);
+  for (const std::string what : {"force-histogram", "angle", "NT", "coordination"})
+    expect_approved("plot " + in_folder("r.json") + " --what " + what, "plot-" + what + ".svg");
+  expect_approved("plot " + in_folder("s.json") + " --what scattering", "plot-scattering.svg");
+  expect_approved("plot " + in_folder("p.json") + " --what pores", "plot-pores.svg");
+  expect_approved("plot " + golden("../soft-particle.json") + " --what law-fit", "plot-law-fit.svg");
+  expect_approved("plot " + golden("series.csv") + " --what series", "plot-series.svg");
+  expect_approved("plot " + golden("bench.csv") + " --what bench", "plot-bench.svg");
+  expect_approved("plot " + golden("study.csv") + " --what study --x law.friction --y z", "plot-study.svg");
+}
+
+}  // namespace
+}  // namespace isostat
