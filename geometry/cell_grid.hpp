@@ -66,11 +66,12 @@ class CellGrid {
     }
     return f;
   }
-  std::size_t index(const Vec<D>& r) const {
+  std::array<int, D> columns(const Vec<D>& r) const {
     std::array<int, D> at;
     for (int k = 0; k < D; ++k) at[static_cast<std::size_t>(k)] = column(r[k], k);
-    return index(at);
+    return at;
   }
+  std::size_t index(const Vec<D>& r) const { return index(columns(r)); }
   std::size_t size() const {
     std::size_t n = 1;
     for (const int c : count_) n *= static_cast<std::size_t>(c);

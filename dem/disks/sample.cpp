@@ -12,6 +12,7 @@
 #include "dem/scene/text.hpp"
 #include "dem/solver/random.hpp"
 #include "dem/state/touching.hpp"
+#include "geometry/cell_grid.hpp"
 
 namespace isostat {
 namespace {
@@ -19,33 +20,30 @@ namespace {
 // Random sequential placement, largest first, with a grid of cells of the largest diameter.
 class Placement {
  public:
-  Placement(const PeriodicCell<2>& cell, double largest_diameter, double gap) : cell_(cell), gap_(gap) {
-    for (int k = 0; k < 2; ++k) n_[k] = std::max(1, static_cast<int>(cell.length[k] / (largest_diameter + gap)));
-    members_.resize(static_cast<std::size_t>(n_[0]) * static_cast<std::size_t>(n_[1]));
-  }
+  Placement(const PeriodicCell<2>& cell, double largest_diameter, double gap, std::size_t bodies)
+      : cell_(cell),
+        gap_(gap),
+        grid_({{}, cell.length, true}, largest_diameter + gap, bodies),
+        members_(grid_.size()) {}
+
   bool free(const Vec2& r, double radius, const Bodies<2>& bodies) const {
-    const int cx = column(r, 0), cy = column(r, 1);
+    const std::array<int, 2> c = grid_.columns(r), n{grid_.count(0), grid_.count(1)};
     for (int oy = -1; oy <= 1; ++oy)
       for (int ox = -1; ox <= 1; ++ox)
-        for (std::size_t k : members_[index((cx + ox + n_[0]) % n_[0], (cy + oy + n_[1]) % n_[1])]) {
+        for (const std::size_t k :
+             members_[grid_.index(std::array<int, 2>{(c[0] + ox + n[0]) % n[0], (c[1] + oy + n[1]) % n[1]})]) {
           Vec2 d = bodies.position[k] - r;
           d += cell_.offset(cell_.nearest_image(d));
           if (norm(d) < radius + bodies.radius[k] + gap_) return false;
         }
     return true;
   }
-  void add(const Vec2& r, std::size_t k) { members_[index(column(r, 0), column(r, 1))].push_back(k); }
+  void add(const Vec2& r, std::size_t k) { members_[grid_.index(r)].push_back(k); }
 
  private:
-  int column(const Vec2& r, int k) const {
-    return std::min(n_[k] - 1, static_cast<int>(r[k] / cell_.length[k] * n_[k]));
-  }
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(n_[0]) + static_cast<std::size_t>(x);
-  }
   PeriodicCell<2> cell_;
   double gap_;
-  int n_[2];
+  CellGrid<2> grid_;
   std::vector<std::vector<std::size_t>> members_;
 };
 
@@ -155,7 +153,7 @@ State<Disks> initial_disks(const Scene& scene, std::uint64_t seed) {
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t p, std::size_t q) { return diameters[p] > diameters[q]; });
-  Placement placement(cell, diameters[order[0]], state.law.attraction_range);
+  Placement placement(cell, diameters[order[0]], state.law.attraction_range, n);
   for (std::size_t k : order) {
     b.id[k] = static_cast<std::int64_t>(k);
     b.radius[k] = diameters[k] / 2;

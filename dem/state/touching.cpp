@@ -2,74 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 
 #include "dem/state/link_ends.hpp"
+#include "geometry/cell_grid.hpp"
 
 namespace isostat {
-namespace {
-
-// Uniform bins over the cell (or the bounding box); images of a bin are reached by indices outside [0, count).
-template <int D>
-struct Bins {
-  Vec<D> origin{}, size{};
-  std::array<int, D> count{}, reach{};  // reach: bins to either side that can hold a neighbour
-  std::array<bool, D> periodic{};
-  std::vector<int> start, grain;  // grains of bin b: grain[start[b] .. start[b+1])
-
-  std::size_t flat(const std::array<int, D>& b) const {
-    std::size_t f = 0;
-    for (int k = D - 1; k >= 0; --k) {
-      const auto u = static_cast<std::size_t>(k);
-      f = f * static_cast<std::size_t>(count[u]) + static_cast<std::size_t>(b[u]);
-    }
-    return f;
-  }
-  std::array<int, D> bin_of(const Vec<D>& r) const {
-    std::array<int, D> b{};
-    for (int k = 0; k < D; ++k) {
-      const auto u = static_cast<std::size_t>(k);
-      b[u] = std::clamp(static_cast<int>(std::floor((r[k] - origin[k]) / size[k])), 0, count[u] - 1);
-    }
-    return b;
-  }
-};
-
-template <int D>
-Bins<D> make_bins(const std::vector<Vec<D>>& position, const std::optional<PeriodicCell<D>>& cell, double cutoff) {
-  Bins<D> bins;
-  const double per_side = std::ceil(std::pow(static_cast<double>(position.size()), 1.0 / D)) + 1;
-  for (int k = 0; k < D; ++k) {
-    const auto u = static_cast<std::size_t>(k);
-    double edge;
-    if (cell) {
-      edge = cell->length[k];
-    } else {
-      const auto [low, high] = std::minmax_element(position.begin(), position.end(),
-                                                   [k](const Vec<D>& a, const Vec<D>& b) { return a[k] < b[k]; });
-      bins.origin[k] = (*low)[k];
-      edge = std::max((*high)[k] - (*low)[k], cutoff);
-    }
-    bins.periodic[u] = cell.has_value();
-    bins.count[u] = static_cast<int>(std::clamp(std::floor(edge / cutoff), 1.0, 2 * per_side));
-    bins.size[k] = edge / bins.count[u];
-    bins.reach[u] = static_cast<int>(std::ceil(cutoff / bins.size[k]));
-  }
-  std::size_t total = 1;
-  for (int c : bins.count) total *= static_cast<std::size_t>(c);
-  bins.start.assign(total + 1, 0);
-  std::vector<std::size_t> bin(position.size());
-  for (std::size_t i = 0; i < position.size(); ++i) ++bins.start[(bin[i] = bins.flat(bins.bin_of(position[i]))) + 1];
-  std::partial_sum(bins.start.begin(), bins.start.end(), bins.start.begin());
-  bins.grain.resize(position.size());
-  std::vector<int> next(bins.start.begin(), bins.start.end() - 1);
-  for (std::size_t i = 0; i < position.size(); ++i)
-    bins.grain[static_cast<std::size_t>(next[bin[i]]++)] = static_cast<int>(i);
-  return bins;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 template <int D>
 double default_gap_tolerance(const Bodies<D>& bodies) {
@@ -96,7 +35,11 @@ std::vector<Link<D>> touching_links(const Packing<D>& packing, double gap_tolera
   const double largest = *std::max_element(bodies.radius.begin(), bodies.radius.end());
   // The margin covers the rounding of wrapped positions and of the bins they fall in.
   const double cutoff = (2 * largest + gap_tolerance) * (1 + 1e-6);
-  const Bins<D> bins = make_bins<D>(wrapped, packing.cell, cutoff);
+  const CellGrid<D> grid(frame_of(packing.cell, wrapped), cutoff, bodies.size());
+  const GridMembers<D> members(grid, wrapped);
+  std::array<int, D> reach;  // cells to either side that can hold a neighbour: more than one in a tiny periodic cell
+  for (std::size_t k = 0; k < D; ++k)
+    reach[k] = packing.cell ? static_cast<int>(std::ceil(cutoff / grid.width(static_cast<int>(k)))) : 1;
 
   const auto visit = [&](std::size_t i, std::size_t j, const ImageShift<D>& image) {
     ImageShift<D> shift = image;
@@ -111,30 +54,31 @@ std::vector<Link<D>> touching_links(const Packing<D>& packing, double gap_tolera
   };
 
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const std::array<int, D> centre = bins.bin_of(wrapped[i]);
+    const std::array<int, D> centre = grid.columns(wrapped[i]);
     std::array<int, D> offset;
-    for (std::size_t k = 0; k < D; ++k) offset[k] = -bins.reach[k];
+    for (std::size_t k = 0; k < D; ++k) offset[k] = -reach[k];
     for (bool more = true; more;) {
       std::array<int, D> b{};
       ImageShift<D> image{};
       bool inside = true;
       for (std::size_t k = 0; k < D; ++k) {
-        const int at = centre[k] + offset[k], n = bins.count[k];
+        const int at = centre[k] + offset[k], n = grid.count(static_cast<int>(k));
         image[k] = at >= 0 ? at / n : -((n - 1 - at) / n);
         b[k] = at - image[k] * n;
-        inside = inside && (bins.periodic[k] || image[k] == 0);
+        inside = inside && (packing.cell || image[k] == 0);
       }
       if (inside) {
-        const std::size_t f = bins.flat(b);
-        for (int e = bins.start[f]; e < bins.start[f + 1]; ++e)
-          visit(i, static_cast<std::size_t>(bins.grain[static_cast<std::size_t>(e)]), image);
+        const std::size_t c = grid.index(b);
+        for (auto m = static_cast<std::size_t>(members.begin[c]); m < static_cast<std::size_t>(members.begin[c + 1]);
+             ++m)
+          visit(i, static_cast<std::size_t>(members.member[m]), image);
       }
       more = false;
       for (std::size_t k = 0; k < D && !more; ++k) {
-        if (++offset[k] <= bins.reach[k])
+        if (++offset[k] <= reach[k])
           more = true;
         else
-          offset[k] = -bins.reach[k];
+          offset[k] = -reach[k];
       }
     }
   }

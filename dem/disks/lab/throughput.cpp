@@ -24,7 +24,7 @@ Throughput measure_throughput(Packing<2> packing, const ThroughputSetup& setup) 
   state.packing.links.clear();
   set_disk_inertia(state.packing.bodies);
   state.time_step = time_step(state.scene, state.law.normal_stiffness, state.packing.bodies);
-  state.cell_motion.reference_length = state.packing.cell->length;
+  if (state.packing.cell) state.cell_motion.reference_length = state.packing.cell->length;
 
   SolverOptions options;
   options.threads = setup.threads;
