@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "dem/disks/disks.hpp"
 #include "dem/state/packing.hpp"
+#include "dem/systems.hpp"
 
 namespace isostat {
 

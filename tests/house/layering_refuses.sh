@@ -31,6 +31,8 @@ refuses geometry/cell.hpp '"analysis/counts.hpp"'
 refuses dem/state/state.hpp '"analysis/counts.hpp"'
 refuses dem/state/state.hpp '"dem/solver/march.hpp"'
 refuses dem/scene/scene.hpp '"dem/state/state.hpp"'
+refuses dem/state/state.hpp '"dem/disks/disks.hpp"'
+refuses dem/solver/march.hpp '"dem/disks/kernel/march.hpp"'
 refuses dem/files/state_file.cpp '"apps/commands.hpp"'
 refuses analysis/counts.hpp '"apps/commands.hpp"'
 refuses analysis/counts.hpp '"dem/disks/kernel/march.hpp"'
@@ -42,3 +44,8 @@ clean_tree  # the solver reached through a chain of headers
 echo '#include "dem/disks/kernel/march.hpp"' >> "$root/dem/state/state_tools.hpp"
 echo '#include "dem/state/state_tools.hpp"' >> "$root/analysis/counts.hpp"
 if bash "$check" "$root" > /dev/null; then echo "accepted a chain to the solver"; exit 1; fi
+clean_tree
+echo '// AnyState' >> "$root/dem/systems.hpp"
+bash "$check" "$root" > /dev/null || { echo "refused AnyState where it belongs"; exit 1; }
+echo 'AnyState state;' >> "$root/dem/state/state.hpp"
+if bash "$check" "$root" > /dev/null; then echo "accepted AnyState in a shared header"; exit 1; fi
