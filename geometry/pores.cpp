@@ -9,7 +9,7 @@
 #include "geometry/arc_moments.hpp"
 #include "geometry/base/index.hpp"
 #include "geometry/disk_complex.hpp"
-#include "geometry/winding_sets.hpp"
+#include "geometry/placed_sets.hpp"
 
 namespace isostat {
 namespace {
@@ -28,7 +28,7 @@ struct Wall {
 
 class PoreFinder {
  public:
-  PoreFinder(const DiskComplex& complex) : c_(complex), t_(complex.triangulation), sets_(t_.faces.size()) {}
+  PoreFinder(const DiskComplex& complex) : c_(complex), t_(complex.triangulation), faces_(t_.faces.size()) {}
 
   Pores find(bool with_arcs) {
     join_open_faces();
@@ -39,6 +39,12 @@ class PoreFinder {
   }
 
  private:
+  using Faces = PlacedSets<2>;
+  struct Loop {  // of open faces, and how it winds around the cell
+    std::int32_t face;
+    ImageShift<2> winding;
+  };
+
   bool open(std::int32_t face) const { return !c_.face_covered[idx(face)]; }
 
   void join_open_faces() {
@@ -47,7 +53,10 @@ class PoreFinder {
         const auto left = idx(slot), right = idx(t_.previous(i, slot));
         // From a disk's side both slots of an edge are seen: once is enough. Auxiliary sites close nothing.
         if (c_.edge[left] != EdgeState::open || t_.neighbour[left].site < i) continue;
-        sets_.join(t_.face[left], t_.face[right], minus(t_.face_shift[right], t_.face_shift[left]));
+        const auto relative = Faces::difference(t_.face_shift[right], t_.face_shift[left]);
+        if (const auto winding = faces_.join(t_.face[left], t_.face[right], relative);
+            winding && *winding != ImageShift<2>{})
+          loops_.push_back({t_.face[left], *winding});
       }
   }
 
@@ -56,15 +65,17 @@ class PoreFinder {
     std::vector<std::int32_t> name(t_.faces.size(), -1);
     for (std::int32_t f = 0; idx(f) < t_.faces.size(); ++f) {
       if (!open(f)) continue;
-      const auto root = sets_.find(f).root;
+      const auto root = faces_.find(f).root;
       if (name[idx(root)] < 0) {
         name[idx(root)] = static_cast<std::int32_t>(pores_.size());
-        Pore p;
-        p.along = sets_.along(root);
-        p.percolating = p.along[0] || p.along[1];
-        pores_.push_back(p);
+        pores_.emplace_back();
       }
       pore_of_face_[idx(f)] = name[idx(root)];
+    }
+    for (const Loop& loop : loops_) {
+      Pore& p = pores_[idx(pore_of_face_[idx(loop.face)])];
+      for (std::size_t k = 0; k < 2; ++k) p.along[k] |= loop.winding[k] != 0;
+      p.percolating = p.along[0] || p.along[1];
     }
     local_area_.assign(pores_.size(), 0);
     for (std::int32_t f = 0; idx(f) < t_.faces.size(); ++f) {
@@ -119,8 +130,8 @@ class PoreFinder {
     const auto pore = pore_of_face_[idx(f)];
     // The listed face lies in image `offset` of the pore's frame; the one seen from disk i in its own image is it
     // moved by face_shift, so disk i has to be moved by the difference.
-    walls_.push_back(
-        {pore, i, minus(sets_.find(f).offset, t_.face_shift[idx(open_slot)]), start, sweep, start_slot, end_slot});
+    walls_.push_back({pore, i, Faces::difference(faces_.find(f).image, t_.face_shift[idx(open_slot)]), start, sweep,
+                      start_slot, end_slot});
     const double r = c_.radius[idx(i)];
     local_area_[idx(pore)] -= 0.5 * r * r * sweep;
     covered_ += 0.5 * r * r * sweep;
@@ -253,7 +264,8 @@ class PoreFinder {
 
   const DiskComplex& c_;
   const PowerTriangulation& t_;
-  WindingSets sets_;
+  Faces faces_;
+  std::vector<Loop> loops_;
   std::vector<std::int32_t> pore_of_face_;
   std::vector<Pore> pores_;
   std::vector<double> local_area_;  // of each pore: its open faces less the sectors and kites that reach into them

@@ -8,7 +8,7 @@
 
 #include "analysis/network/force_scale.hpp"
 #include "analysis/network/sections.hpp"
-#include "analysis/network/winding.hpp"
+#include "geometry/placed_sets.hpp"
 
 namespace isostat {
 
@@ -23,11 +23,11 @@ std::optional<Percolation> force_percolation(const Packing<2>& packing) {
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return force[a] != force[b] ? force[a] > force[b] : a < b; });
-  WindingClusters<2> clusters(packing.bodies.size());
+  PlacedSets<2> clusters(packing.bodies.size());
   for (const std::size_t l : order) {
     const Link<2>& link = packing.links[l];
-    const ImageShift<2> winding = clusters.join(link.i, link.j, link.shift);
-    if (winding != ImageShift<2>{}) return Percolation{force[l], winding};
+    const auto winding = clusters.join(link.i, link.j, link.shift);
+    if (winding && *winding != ImageShift<2>{}) return Percolation{force[l], *winding};
   }
   return std::nullopt;
 }
