@@ -4,62 +4,64 @@
 
 namespace isostat {
 
+namespace {
+
+struct RowTotal {
+  std::size_t rows = 0, blocks = 0;
+};
+// Room for the rows, an upper bound in the blocks of a body and its own image.
+RowTotal count_rows(const Packing<2>& packing, NetworkLaw law, bool cell_free, const RigidBodies& bodies) {
+  RowTotal total;
+  for (const Link<2>& link : packing.links) {
+    const bool through_image = bodies.image(link) != ImageShift<2>{};
+    if (bodies.same(link) && !through_image) continue;
+    const auto rows = static_cast<std::size_t>(rows_of(link.kind, law).count());
+    total.rows += rows, total.blocks += (cell_free && through_image ? 3 : 2) * rows;
+  }
+  return total;
+}
+
 template <class F>
-std::vector<BodyRow<F>> body_rows(const Packing<2>& packing, NetworkLaw law, bool cell_free, const RigidBodies& bodies,
-                                  const FieldGeometry<F>& geometry) {
-  std::vector<BodyRow<F>> rows;
-  const bool points = law == NetworkLaw::frictionless;
+F cross(const FieldVec<F>& a, const FieldVec<F>& b) {
+  return a[0] * b[1] - a[1] * b[0];
+}
+
+}  // namespace
+
+template <class F>
+Rows<F> body_rows(const Packing<2>& packing, NetworkLaw law, bool cell_free, const RigidBodies& bodies,
+                  const FieldGeometry<F>& geometry) {
+  Rows<F> rows;
+  const RowTotal total = count_rows(packing, law, cell_free, bodies);
+  rows.rows.reserve(total.rows), rows.blocks.reserve(total.blocks);
+  const bool spins = dof_layout(packing, law, cell_free).per_body == 3;
   for (std::size_t l = 0; l < packing.links.size(); ++l) {
     const Link<2>& link = packing.links[l];
     const auto i = static_cast<std::size_t>(link.i), j = static_cast<std::size_t>(link.j);
-    BodyRow<F> row;
-    row.a = bodies.body_of[i], row.b = bodies.body_of[j], row.link = static_cast<std::int32_t>(l);
     const ImageShift<2> image = bodies.image(link);
-    const bool own_image = image[0] != 0 || image[1] != 0;
-    if (row.a == row.b && !own_image) continue;
+    const bool own = bodies.same(link), through_image = image != ImageShift<2>{};
+    if (own && !through_image) continue;
 
     const LinkRows kept = rows_of(link.kind, law);
-    const FieldVec<F> r = geometry.branch(link);
-    const FieldVec<F> x = geometry.placed(i, bodies.placement[i]);
-    const FieldVec<F> back = geometry.offset(image);
-
-    // Component of the relative velocity at `point` along `direction`: u_b(point - back) - e back - u_a(point).
-    const auto add_row = [&](std::int8_t component, const FieldVec<F>& direction, const FieldVec<F>& point) {
-      row.component = component;
-      row.at_a = {-direction[0], -direction[1], F{}};
-      row.at_b = {direction[0], direction[1], F{}};
-      if (!points) {
-        const auto moment = [&](const F& px, const F& py) { return px * direction[1] - py * direction[0]; };
-        row.at_a[2] = -moment(point[0], point[1]);
-        row.at_b[2] = moment(point[0] - back[0], point[1] - back[1]);
+    const FieldVec<F> r = geometry.branch(link), back = geometry.offset(image);
+    const FieldVec<F> x_i = geometry.placed(i, bodies.placement[i]), x_j = geometry.placed(j, bodies.placement[j]);
+    for (const RowKind kind : kRowKinds) {
+      if (!kept[kind] || (own && kind == RowKind::rolling)) continue;  // a body and its image turn alike
+      const LinkLoad<F> load = rational_load(kind, r, geometry.radius[i], geometry.radius[j]);
+      const FieldVec<F> force = {load.fx, load.fy};
+      // Moments about the origins of the two frames, from those about the centres.
+      RowBlock<F> on_i{bodies.body_of[i], {-force[0], -force[1], F{}}},
+          on_j{bodies.body_of[j], {force[0], force[1], F{}}};
+      if (spins) on_i.at[2] = load.moment_i - cross(x_i, force), on_j.at[2] = load.moment_j + cross(x_j, force);
+      rows.begin_row(static_cast<std::int32_t>(l), kind);
+      if (own) {
+        for (std::size_t d = 0; d < 3; ++d) on_i.at[d] = on_i.at[d] + on_j.at[d];
+        rows.blocks.push_back(on_i);
+      } else {
+        rows.blocks.push_back(on_i), rows.blocks.push_back(on_j);
       }
-      row.at_strain = {};
-      if (cell_free) row.at_strain = {-(back[0] * direction[0]), -(back[1] * direction[1])};
-      if (row.a == row.b) {
-        for (std::size_t d = 0; d < 3; ++d) row.at_a[d] = row.at_a[d] + row.at_b[d];
-        row.at_b = {};
-      }
-      rows.push_back(row);
-    };
-    if (kept.normal) add_row(0, r, x);
-    if (kept.tangential) {
-      // direction (R_i + R_j) z x r, at x + r R_i / (R_i + R_j): the moment is scaled like the direction.
-      const F sum = geometry.radius[i] + geometry.radius[j];
-      const FieldVec<F> t = {-r[1], r[0]};
-      add_row(1, {t[0] * sum, t[1] * sum}, x);
-      const F arm = geometry.radius[i] * (r[0] * r[0] + r[1] * r[1]);  // R_i (r x t) beyond the moment at x
-      BodyRow<F>& last = rows.back();
-      if (row.a != row.b) {  // on one body the two terms cancel
-        last.at_a[2] = last.at_a[2] - arm;
-        last.at_b[2] = last.at_b[2] + arm;
-      }
-    }
-    if (kept.moment && row.a != row.b) {
-      row.component = 2;
-      row.at_a = {F{}, F{}, -F(1)};
-      row.at_b = {F{}, F{}, F(1)};
-      row.at_strain = {};
-      rows.push_back(row);
+      if (cell_free && through_image && kind != RowKind::rolling)  // the image moves with V - e back
+        rows.blocks.push_back({bodies.count, {-(back[0] * force[0]), -(back[1] * force[1]), F{}}});
     }
   }
   return rows;
@@ -87,23 +89,21 @@ bool independent(std::array<std::array<F, 3>, 3> v, int count, int dofs) {
 }  // namespace
 
 template <class F>
-PrunedNetwork prune(const std::vector<BodyRow<F>>& rows, std::int32_t body_count, int dofs) {
+PrunedNetwork prune(const Rows<F>& rows, std::int32_t body_count, int dofs) {
   const auto n = static_cast<std::size_t>(body_count);
   std::vector<std::int32_t> degree(n, 0);
-  for (const auto& row : rows) {
-    ++degree[static_cast<std::size_t>(row.a)];
-    if (row.b != row.a) ++degree[static_cast<std::size_t>(row.b)];
-  }
+  for (const auto& block : rows.blocks)
+    if (block.body < body_count) ++degree[static_cast<std::size_t>(block.body)];
   std::vector<std::int32_t> start(n + 1, 0);
   for (std::size_t b = 0; b < n; ++b) start[b + 1] = start[b] + degree[b];
   std::vector<std::int32_t> incident(static_cast<std::size_t>(start[n]));
   {
     std::vector<std::int32_t> next(start.begin(), start.end() - 1);
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-      incident[static_cast<std::size_t>(next[static_cast<std::size_t>(rows[r].a)]++)] = static_cast<std::int32_t>(r);
-      if (rows[r].b != rows[r].a)
-        incident[static_cast<std::size_t>(next[static_cast<std::size_t>(rows[r].b)]++)] = static_cast<std::int32_t>(r);
-    }
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      for (const auto& block : rows.of(r))
+        if (block.body < body_count)
+          incident[static_cast<std::size_t>(next[static_cast<std::size_t>(block.body)]++)] =
+              static_cast<std::int32_t>(r);
   }
 
   PrunedNetwork result;
@@ -122,9 +122,8 @@ PrunedNetwork prune(const std::vector<BodyRow<F>>& rows, std::int32_t body_count
     for (std::int32_t e = start[b]; e < start[b + 1]; ++e) {
       const std::int32_t r = incident[static_cast<std::size_t>(e)];
       if (row_gone[static_cast<std::size_t>(r)]) continue;
-      const auto& row = rows[static_cast<std::size_t>(r)];
       mine[static_cast<std::size_t>(count)] = r;
-      entries[static_cast<std::size_t>(count++)] = row.a == body ? row.at_a : row.at_b;
+      entries[static_cast<std::size_t>(count++)] = rows.at(static_cast<std::size_t>(r), body);
     }
     if (!independent(entries, count, dofs)) continue;
     body_gone[b] = 1;
@@ -133,9 +132,10 @@ PrunedNetwork prune(const std::vector<BodyRow<F>>& rows, std::int32_t body_count
     for (int k = 0; k < count; ++k) {
       const auto r = static_cast<std::size_t>(mine[static_cast<std::size_t>(k)]);
       row_gone[r] = 1;
-      const std::int32_t other = rows[r].a == body ? rows[r].b : rows[r].a;
-      if (other == body) continue;
-      if (--degree[static_cast<std::size_t>(other)] <= dofs) queue.push_back(other);
+      for (const auto& block : rows.of(r)) {
+        if (block.body == body || block.body >= body_count) continue;
+        if (--degree[static_cast<std::size_t>(block.body)] <= dofs) queue.push_back(block.body);
+      }
     }
   }
   for (std::size_t r = 0; r < rows.size(); ++r)
@@ -145,13 +145,13 @@ PrunedNetwork prune(const std::vector<BodyRow<F>>& rows, std::int32_t body_count
   return result;
 }
 
-template std::vector<BodyRow<FirstField>> body_rows(const Packing<2>&, NetworkLaw, bool, const RigidBodies&,
-                                                    const FieldGeometry<FirstField>&);
-template std::vector<BodyRow<SecondField>> body_rows(const Packing<2>&, NetworkLaw, bool, const RigidBodies&,
-                                                     const FieldGeometry<SecondField>&);
-template std::vector<BodyRow<WideField>> body_rows(const Packing<2>&, NetworkLaw, bool, const RigidBodies&,
-                                                   const FieldGeometry<WideField>&);
-template PrunedNetwork prune(const std::vector<BodyRow<FirstField>>&, std::int32_t, int);
-template PrunedNetwork prune(const std::vector<BodyRow<WideField>>&, std::int32_t, int);
+template Rows<FirstField> body_rows(const Packing<2>&, NetworkLaw, bool, const RigidBodies&,
+                                    const FieldGeometry<FirstField>&);
+template Rows<SecondField> body_rows(const Packing<2>&, NetworkLaw, bool, const RigidBodies&,
+                                     const FieldGeometry<SecondField>&);
+template Rows<WideField> body_rows(const Packing<2>&, NetworkLaw, bool, const RigidBodies&,
+                                   const FieldGeometry<WideField>&);
+template PrunedNetwork prune(const Rows<FirstField>&, std::int32_t, int);
+template PrunedNetwork prune(const Rows<WideField>&, std::int32_t, int);
 
 }  // namespace isostat

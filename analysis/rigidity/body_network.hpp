@@ -10,24 +10,16 @@
 #include <vector>
 
 #include "analysis/rigidity/field_geometry.hpp"
-#include "analysis/rigidity/link_rows.hpp"
 #include "analysis/rigidity/rigid_bodies.hpp"
+#include "analysis/rigidity/rows.hpp"
 
 namespace isostat {
 
+// Rows of one packing between its rigid bodies, in the order of G; rows inside a body are left out. A body and its own
+// image make one block; a row through an image has one of the strain (body number bodies.count) if the cell is free.
 template <class F>
-struct BodyRow {
-  std::int32_t a = 0, b = 0;        // bodies; a == b: a body and its own image, all entries in at_a
-  std::array<F, 3> at_a{}, at_b{};  // of Vx, Vy, W (points: W unused)
-  std::array<F, 2> at_strain{};
-  std::int32_t link = 0;      // index into Packing::links
-  std::int8_t component = 0;  // 0 normal, 1 tangential, 2 moment
-};
-
-// Rows of one packing between its rigid bodies, in the order of G; rows inside a body are left out.
-template <class F>
-std::vector<BodyRow<F>> body_rows(const Packing<2>& packing, NetworkLaw law, bool cell_free, const RigidBodies& bodies,
-                                  const FieldGeometry<F>& geometry);
+Rows<F> body_rows(const Packing<2>& packing, NetworkLaw law, bool cell_free, const RigidBodies& bodies,
+                  const FieldGeometry<F>& geometry);
 
 // Bodies whose rows, at the time of removal, are independent on the columns of that body alone: they and their rows go,
 // the rank drops by the number of those rows. Dangling ends and chains of them vanish this way. Proved in the field:
@@ -43,6 +35,6 @@ struct PrunedNetwork {
   std::int64_t pruned_rank = 0;      // number of rows removed
 };
 template <class F>
-PrunedNetwork prune(const std::vector<BodyRow<F>>& rows, std::int32_t body_count, int dofs);
+PrunedNetwork prune(const Rows<F>& rows, std::int32_t body_count, int dofs);
 
 }  // namespace isostat

@@ -16,26 +16,21 @@ constexpr std::uint64_t kMotionSeed = 0xC1057E5;
 
 std::size_t u(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-struct Motion {
-  std::vector<std::array<F, 3>> body;  // Vx, Vy at the origin of its frame, W
-  std::array<F, 2> strain{};
-};
+// By body: Vx, Vy at the origin of its frame, W; the strain last.
+using Motion = std::vector<std::array<F, 3>>;
 
 // The rows of a pruned body, given everything else, determine its motion up to free components: those are random.
 std::array<F, 3> pruned_motion(const ReducedProblem<F>& problem, const PrunedBody& pruned, const Motion& motion) {
   const auto dofs = u(problem.per_body), count = u(pruned.count);
   std::array<std::array<F, 4>, 3> a{};  // rows of the body, right-hand side last
-  for (std::size_t k = 0; k < count; ++k) {
-    const BodyRow<F>& row = problem.rows[u(pruned.rows[k])];
-    const bool first = row.a == pruned.body;
-    const auto &mine = first ? row.at_a : row.at_b, &theirs = first ? row.at_b : row.at_a;
-    F rest;
-    if (row.a != row.b)
-      for (std::size_t d = 0; d < dofs; ++d) rest = rest + theirs[d] * motion.body[u(first ? row.b : row.a)][d];
-    for (std::size_t d = 0; d < 2; ++d) rest = rest + row.at_strain[d] * motion.strain[d];
-    for (std::size_t d = 0; d < dofs; ++d) a[k][d] = mine[d];
-    a[k][3] = -rest;
-  }
+  for (std::size_t k = 0; k < count; ++k)
+    for (const RowBlock<F>& block : problem.rows.of(u(pruned.rows[k])))
+      for (std::size_t d = 0; d < 3; ++d) {
+        if (block.body != pruned.body)
+          a[k][3] = a[k][3] - block.at[d] * motion[u(block.body)][d];
+        else if (d < dofs)
+          a[k][d] = block.at[d];
+      }
   std::array<int, 3> pivot_row = {-1, -1, -1};
   std::size_t done = 0;
   for (std::size_t d = 0; d < dofs && done < count; ++d) {
@@ -66,20 +61,14 @@ std::array<F, 3> pruned_motion(const ReducedProblem<F>& problem, const PrunedBod
 }
 
 Motion random_motion(const ReducedProblem<F>& problem) {
-  Motion motion;
-  motion.body.resize(u(problem.bodies.count));
-  const auto rows = field_rows(problem, problem.rows);
+  Motion motion(u(problem.bodies.count) + 1);
   for (std::uint64_t attempt = 0;; ++attempt) {
     try {
-      const ModularLdlt<F> ldlt(problem.tree, problem.dofs, rows, 991 + attempt, true);
+      const ModularLdlt<F> ldlt(problem.tree, problem.dofs, problem.node_rows(problem.rows), 991 + attempt, true);
       const std::vector<F> x = ldlt.random_null_vector(kMotionSeed);
       for (std::size_t n = 0; n < problem.body_of_node.size(); ++n) {
         const auto at = u(ldlt.offset(static_cast<std::int32_t>(n)));
-        if (problem.body_of_node[n] < 0) {
-          motion.strain = {x[at], x[at + 1]};
-          continue;
-        }
-        for (std::size_t d = 0; d < u(problem.per_body); ++d) motion.body[u(problem.body_of_node[n])][d] = x[at + d];
+        for (std::size_t d = 0; d < u(problem.dofs[n]); ++d) motion[u(problem.body_of_node[n])][d] = x[at + d];
       }
       break;
     } catch (const RandomizationFailed&) {
@@ -88,10 +77,9 @@ Motion random_motion(const ReducedProblem<F>& problem) {
   }
   for (std::int32_t b : problem.network.bodies)  // without rows: free
     if (problem.node_of_body[u(b)] < 0)
-      for (std::size_t d = 0; d < u(problem.per_body); ++d)
-        motion.body[u(b)][d] = F::random(kMotionSeed + 2, u(b) * 3 + d);
+      for (std::size_t d = 0; d < u(problem.per_body); ++d) motion[u(b)][d] = F::random(kMotionSeed + 2, u(b) * 3 + d);
   for (auto p = problem.network.pruned.rbegin(); p != problem.network.pruned.rend(); ++p)
-    motion.body[u(p->body)] = pruned_motion(problem, *p, motion);
+    motion[u(p->body)] = pruned_motion(problem, *p, motion);
   return motion;
 }
 
@@ -115,11 +103,10 @@ std::vector<std::int32_t> label_by_grains(const Packing<2>& packing, const Reduc
   std::vector<char> together(packing.links.size(), 0);
   for (std::size_t l = 0; l < packing.links.size(); ++l) {
     const Link<2>& link = packing.links[l];
-    const auto &a = motion.body[u(problem.bodies.body_of[u(link.i)])],
-               &b = motion.body[u(problem.bodies.body_of[u(link.j)])];
+    const auto &a = motion[u(problem.bodies.body_of[u(link.i)])], &b = motion[u(problem.bodies.body_of[u(link.j)])];
     const FieldVec<F> o = geometry.offset(problem.bodies.image(link));
     // The image of b: V_b - W_b z x o - e o.
-    const F vx = b[0] + b[2] * o[1] - motion.strain[0] * o[0], vy = b[1] - b[2] * o[0] - motion.strain[1] * o[1];
+    const F vx = b[0] + b[2] * o[1] - motion.back()[0] * o[0], vy = b[1] - b[2] * o[0] - motion.back()[1] * o[1];
     together[l] = a[2] == b[2] && a[0] == vx && a[1] == vy;
     if (together[l]) sets.join(link.i, link.j);
   }
@@ -137,8 +124,8 @@ std::vector<std::int32_t> label_by_links(const Packing<2>& packing, const Motion
   for (std::size_t l = 0; l < packing.links.size(); ++l) {
     const Link<2>& link = packing.links[l];
     const FieldVec<F> r = geometry.branch(link), o = geometry.offset(link.shift);
-    const auto &a = motion.body[u(link.i)], &b = motion.body[u(link.j)];
-    const F dx = b[0] - motion.strain[0] * o[0] - a[0], dy = b[1] - motion.strain[1] * o[1] - a[1];
+    const auto &a = motion[u(link.i)], &b = motion[u(link.j)];
+    const F dx = b[0] - motion.back()[0] * o[0] - a[0], dy = b[1] - motion.back()[1] * o[1] - a[1];
     const F turn = (r[0] * dy - r[1] * dx) * (r[0] * r[0] + r[1] * r[1]).inverse();
     at_grain[u(link.i)].push_back({turn.value, static_cast<std::int32_t>(l)});
     at_grain[u(link.j)].push_back({turn.value, static_cast<std::int32_t>(l)});

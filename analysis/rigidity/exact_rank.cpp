@@ -14,13 +14,12 @@ constexpr std::uint64_t kWeightSeed = 0x150574A7;
 
 // Dimension of the null space of the reduced rows, with pruned and free bodies counted back in.
 template <class G>
-std::int64_t null_dimension(const ReducedProblem<FirstField>& problem, const std::vector<BodyRow<G>>& rows) {
-  const std::vector<FieldRow<G>> reduced = field_rows(problem, rows);
+std::int64_t null_dimension(const ReducedProblem<FirstField>& problem, const Rows<G>& rows) {
   const std::int64_t unknowns =
-      static_cast<std::int64_t>(problem.bodies.count) * problem.per_body + (problem.strain_node >= 0 ? 2 : 0);
+      static_cast<std::int64_t>(problem.bodies.count) * problem.per_body + (problem.strain_node() >= 0 ? 2 : 0);
   for (std::uint64_t attempt = 0;; ++attempt) {
     try {
-      const ModularLdlt<G> ldlt(problem.tree, problem.dofs, reduced, kWeightSeed + attempt, false);
+      const ModularLdlt<G> ldlt(problem.tree, problem.dofs, problem.node_rows(rows), kWeightSeed + attempt, false);
       return unknowns - problem.network.pruned_rank - ldlt.rank();
     } catch (const RandomizationFailed&) {
       if (attempt == 3) throw;  // chance below 1e-40
@@ -34,7 +33,7 @@ void count_null_spaces(const Packing<2>& packing, NetworkLaw law, ExactRank& r) 
     linked[static_cast<std::size_t>(link.i)] = linked[static_cast<std::size_t>(link.j)] = 1;
   const auto n = static_cast<std::int64_t>(packing.bodies.size());
   const std::int64_t rattlers = n - std::count(linked.begin(), linked.end(), 1);
-  const std::int64_t per_body = law == NetworkLaw::frictionless ? 2 : 3;
+  const std::int64_t per_body = dof_layout(packing, law, false).per_body;
   // Isolated: two translations and a rotation; of one point: the translations.
   r.trivial = packing.cell ? 2 : std::min<std::int64_t>(3, n * per_body);
   r.rattler_modes = rattlers == n ? n * per_body - r.trivial : rattlers * per_body;
@@ -47,7 +46,7 @@ ExactRank exact_rank(const Packing<2>& packing, NetworkLaw law, bool cell_free) 
   using Clock = std::chrono::steady_clock;
   if (cell_free && !packing.cell) throw InputError("command line", 0, "--cell", "free", "the input has no cell");
   ExactRank r;
-  r.dofs = dof_layout(packing.bodies.size(), law, cell_free).size();
+  r.dofs = dof_layout(packing, law, cell_free).size();
   r.rows = row_count(packing, law);
 
   const ReducedProblem<FirstField> problem = reduce_problem<FirstField>(packing, law, cell_free);
@@ -105,7 +104,7 @@ std::vector<std::vector<std::int32_t>> gear_components(const Packing<2>& packing
   };
   for (const Link<2>& link : packing.links) {
     const LinkRows rows = rows_of(link.kind, law);
-    if (!rows.tangential && !rows.moment) continue;
+    if (!rows.tangential && !rows.rolling) continue;
     const auto [a, side_a] = find(link.i);
     const auto [b, side_b] = find(link.j);
     if (a == b) {
@@ -117,7 +116,7 @@ std::vector<std::vector<std::int32_t>> gear_components(const Packing<2>& packing
       spoiled[a] = spoiled[a] | spoiled[b];
       loop[a] = loop[a] | loop[b];
     }
-    if (rows.moment) spoiled[find(link.i).first] = 1;
+    if (rows.rolling) spoiled[find(link.i).first] = 1;
   }
   std::vector<std::vector<std::int32_t>> components;
   std::vector<std::int32_t> index(n, -1);

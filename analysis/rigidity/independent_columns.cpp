@@ -23,24 +23,25 @@ class PrunedRows {
   PrunedRows(const Packing<2>& packing, const ReducedProblem<F>& problem, const FieldGeometry<F>& geometry)
       : packing_(packing), problem_(problem), geometry_(geometry) {}
 
-  PrunedRow about(std::size_t grain, std::int32_t body, const BodyRow<F>& row) const {
+  PrunedRow about(std::size_t grain, std::int32_t body, std::size_t at) const {
     PrunedRow result;
-    const bool first = row.a == body;
-    result.exact = first ? row.at_a : row.at_b;
+    result.exact = problem_.rows.at(at, body);
+    const Rows<F>::Row& row = problem_.rows.rows[at];
     const FieldVec<F> x = geometry_.placed(grain, problem_.bodies.placement[grain]);
     // V = v - w z x x, velocity at the origin from that of the grain.
     result.exact[2] = result.exact[2] + result.exact[0] * x[1] - result.exact[1] * x[0];
-    if (row.component == 2) {
+    if (row.kind == RowKind::rolling) {
       result.size = {0, 0, 1 / packing_.bodies.radius[grain]};
       return result;
     }
     const Link<2>& link = packing_.links[static_cast<std::size_t>(row.link)];
     const auto i = static_cast<std::size_t>(link.i), j = static_cast<std::size_t>(link.j);
+    const bool first = problem_.bodies.body_of[i] == body;
     const Vec2 from = placed(i), back = offset(problem_.bodies.image(link));
     const Vec2 branch = packing_.bodies.position[j] + offset(link.shift) - packing_.bodies.position[i];
     const double share = packing_.bodies.radius[i] / (packing_.bodies.radius[i] + packing_.bodies.radius[j]);
     const Vec2 arm = from + share * branch - (first ? Vec2{} : back) - placed(grain);
-    const Vec2 n = (1 / norm(branch)) * branch, e = row.component == 0 ? n : Vec2{{-n[1], n[0]}};
+    const Vec2 n = (1 / norm(branch)) * branch, e = row.kind == RowKind::normal ? n : Vec2{{-n[1], n[0]}};
     result.size = {e[0], e[1], (arm[0] * e[1] - arm[1] * e[0]) / packing_.bodies.radius[grain]};
     return result;
   }
@@ -89,7 +90,7 @@ std::array<bool, 3> without_pivot(std::array<PrunedRow, 3> a, std::size_t count,
 std::vector<char> dependent_columns(const Packing<2>& packing, NetworkLaw law, bool cell_free) {
   if (cell_free && !packing.cell) throw InputError("command line", 0, "--cell", "free", "the input has no cell");
   const ReducedProblem<F> problem = reduce_problem<F>(packing, law, cell_free);
-  const DofLayout layout = dof_layout(packing.bodies.size(), law, cell_free);
+  const DofLayout layout = dof_layout(packing, law, cell_free);
   std::vector<char> dependent(static_cast<std::size_t>(layout.size()), 0);
   std::vector<std::size_t> column_of_body(static_cast<std::size_t>(problem.bodies.count));
   for (std::size_t i = packing.bodies.size(); i-- > 0;)
@@ -102,8 +103,7 @@ std::vector<char> dependent_columns(const Packing<2>& packing, NetworkLaw law, b
     const std::size_t column = column_of_body[static_cast<std::size_t>(pruned.body)];
     std::array<PrunedRow, 3> mine;
     for (std::size_t k = 0; k < static_cast<std::size_t>(pruned.count); ++k)
-      mine[k] =
-          rows_about.about(column / per_body, pruned.body, problem.rows[static_cast<std::size_t>(pruned.rows[k])]);
+      mine[k] = rows_about.about(column / per_body, pruned.body, static_cast<std::size_t>(pruned.rows[k]));
     const auto none = without_pivot(mine, static_cast<std::size_t>(pruned.count), per_body);
     for (std::size_t d = 0; d < per_body; ++d) dependent[column + d] = none[d];
   }
@@ -111,14 +111,13 @@ std::vector<char> dependent_columns(const Packing<2>& packing, NetworkLaw law, b
     if (problem.node_of_body[static_cast<std::size_t>(b)] < 0)
       for (std::size_t d = 0; d < per_body; ++d) dependent[column_of_body[static_cast<std::size_t>(b)] + d] = 1;
 
-  const std::vector<FieldRow<F>> rows = field_rows(problem, problem.rows);
   for (std::uint64_t attempt = 0;; ++attempt) {
     try {
-      const ModularLdlt<F> ldlt(problem.tree, problem.dofs, rows, 77 + attempt, false);
+      const ModularLdlt<F> ldlt(problem.tree, problem.dofs, problem.node_rows(problem.rows), 77 + attempt, false);
       for (std::size_t n = 0; n < problem.body_of_node.size(); ++n) {
         const std::int32_t body = problem.body_of_node[n];
-        const std::size_t column = body < 0 ? static_cast<std::size_t>(layout.strain_column(0))
-                                            : column_of_body[static_cast<std::size_t>(body)];
+        const std::size_t column = body == problem.bodies.count ? static_cast<std::size_t>(layout.strain_column(0))
+                                                                : column_of_body[static_cast<std::size_t>(body)];
         const auto entry = static_cast<std::size_t>(ldlt.offset(static_cast<std::int32_t>(n)));
         for (std::size_t d = 0; d < static_cast<std::size_t>(problem.dofs[n]); ++d)
           dependent[column + d] = ldlt.dependent()[entry + d];

@@ -1,16 +1,33 @@
 // Which rows of G a link has, and where the degrees of freedom of a body stand. One table for G, for exact rank and
 // for stiffness. Gilabert 2007, Appendix A: relative motions that a force or moment is conjugate to.
 #pragma once
+#include <array>
 #include <cstdint>
 
 #include "analysis/input.hpp"
+#include "dem/state/link.hpp"
 #include "dem/state/packing.hpp"
 
 namespace isostat {
 
-struct LinkRows {
-  bool normal = true, tangential = false, moment = false;
-  int count() const { return 1 + tangential + moment; }
+// What a row of G measures, and which link force is conjugate to it.
+enum class RowKind : std::int8_t { normal, tangential, rolling };
+inline constexpr std::array kRowKinds = {RowKind::normal, RowKind::tangential, RowKind::rolling};  // as within a link
+
+// One value for each kind of row.
+template <class T>
+struct ByRow {
+  T normal{}, tangential{}, rolling{};
+  constexpr const T& operator[](RowKind kind) const {
+    return kind == RowKind::normal ? normal : kind == RowKind::tangential ? tangential : rolling;
+  }
+  constexpr T& operator[](RowKind kind) {
+    return kind == RowKind::normal ? normal : kind == RowKind::tangential ? tangential : rolling;
+  }
+};
+
+struct LinkRows : ByRow<bool> {
+  constexpr int count() const { return normal + tangential + rolling; }
 };
 
 //            c        s      r     sr   d
@@ -18,11 +35,30 @@ struct LinkRows {
 // friction     N T      N      N T   N    N
 // rolling      N T M    N M    N T   N    N
 constexpr LinkRows rows_of(LinkKind kind, NetworkLaw law) {
-  if (law == NetworkLaw::frictionless || kind == LinkKind::distant || kind == LinkKind::both_yielded) return {};
-  LinkRows rows;
+  LinkRows rows{{true, false, false}};
+  if (law == NetworkLaw::frictionless || kind == LinkKind::distant || kind == LinkKind::both_yielded) return rows;
   rows.tangential = kind != LinkKind::sliding;
-  rows.moment = law == NetworkLaw::rolling && kind != LinkKind::rolling_yielded;
+  rows.rolling = law == NetworkLaw::rolling && kind != LinkKind::rolling_yielded;
   return rows;
+}
+
+// A row of G is the load of a unit link force: in doubles, and for exact fields times a positive factor (link.hpp).
+template <class Real>
+LinkLoad<Real> unit_load(RowKind kind, const LinkFrame<Real>& frame) {
+  const auto one = [&](RowKind of) { return Real(kind == of); };
+  return link_load(frame, one(RowKind::normal), one(RowKind::tangential), one(RowKind::rolling));
+}
+template <class F>
+LinkLoad<F> rational_load(RowKind kind, const std::array<F, 2>& branch, F radius_i, F radius_j) {
+  switch (kind) {
+    case RowKind::normal:
+      return rational_normal(branch[0], branch[1]);
+    case RowKind::tangential:
+      return rational_tangential(branch[0], branch[1], radius_i, radius_j);
+    case RowKind::rolling:
+      break;
+  }
+  return rational_rolling<F>();
 }
 
 // Columns of G: body i has columns [i * per_body, (i + 1) * per_body): vx, vy and, with friction, the spin; a free cell
@@ -35,8 +71,8 @@ struct DofLayout {
   std::int64_t strain_column(int axis) const { return per_body * bodies + axis; }
 };
 
-inline DofLayout dof_layout(std::size_t bodies, NetworkLaw law, bool cell_free) {
-  return {law == NetworkLaw::frictionless ? 2 : 3, static_cast<std::int64_t>(bodies), cell_free ? 2 : 0};
+inline DofLayout dof_layout(const Packing<2>& packing, NetworkLaw law, bool cell_free) {
+  return {law == NetworkLaw::frictionless ? 2 : 3, static_cast<std::int64_t>(packing.bodies.size()), cell_free ? 2 : 0};
 }
 
 inline std::int64_t row_count(const Packing<2>& packing, NetworkLaw law) {

@@ -1,122 +1,157 @@
 #include "analysis/rigidity/modular_ldlt.hpp"
 
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
 #include "analysis/rigidity/modular_front.hpp"
 
 namespace isostat {
 namespace {
 
-// What a supernode passes to its parent: the Schur complement on the nodes below, packed lower triangle.
+std::size_t u(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+// One supernode after the other, children before parents: its front is numbered, filled with the rows that begin in it
+// and with what its children left, eliminated, and its Schur complement kept for its parent.
 template <class F>
-struct Update {
-  std::vector<F> triangle;
+class FrontSequence {
+ public:
+  FrontSequence(const EliminationTree& tree, const std::vector<std::int8_t>& dofs, const NodeRows<F>& rows,
+                std::uint64_t seed)
+      : tree_(tree), dofs_(dofs), rows_(rows), seed_(seed), updates_(tree.supernodes.size()), local_(dofs.size(), 0) {
+    sort_rows();
+    first_child_.assign(tree.supernodes.size(), -1), sibling_.assign(tree.supernodes.size(), -1);
+    for (std::size_t s = 0; s < tree.supernodes.size(); ++s)
+      if (const auto p = tree.supernodes[s].parent; p >= 0)
+        sibling_[s] = first_child_[u(p)], first_child_[u(p)] = static_cast<std::int32_t>(s);
+  }
+
+  // Numbers the dofs of the supernode's front, those to be eliminated first, and clears it.
+  void place_supernode(std::size_t s) {
+    const Supernode& node = tree_.supernodes[s];
+    std::int32_t size = 0;
+    const auto place = [&](std::int32_t position) { local_[u(position)] = size, size += dofs_at(position); };
+    for (std::int32_t p = node.first; p < node.last; ++p) place(p);
+    pivots_ = size;
+    for (std::int32_t p : node.below) place(p);
+    front_.reset(size);
+  }
+
+  // Adds w g g^T of the rows g whose first eliminated node is in the supernode.
+  void add_rows(std::size_t s) {
+    for (std::int32_t e = row_start_[s]; e < row_start_[s + 1]; ++e) {
+      const auto r = u(row_list_[u(e)]);
+      at_.clear(), value_.clear();
+      for (const RowBlock<F>& block : blocks(r)) {
+        const std::int32_t node = node_of(block), begin = local_[u(tree_.position[u(node)])];
+        for (std::int32_t d = 0; d < dofs_[u(node)]; ++d)
+          if (!block.at[u(d)].is_zero()) at_.push_back(begin + d), value_.push_back(block.at[u(d)]);
+      }
+      const F weight = F::random(seed_, r);
+      for (std::size_t i = 0; i < at_.size(); ++i) {
+        const F scaled = weight * value_[i];
+        for (std::size_t j = 0; j <= i; ++j) front_.add(at_[i], at_[j], scaled * value_[j]);
+      }
+    }
+  }
+
+  void add_children(std::size_t s) {
+    for (std::int32_t c = first_child_[s]; c >= 0; c = sibling_[u(c)]) {
+      at_.clear();
+      for (std::int32_t p : tree_.supernodes[u(c)].below)
+        for (std::int32_t d = 0; d < dofs_at(p); ++d) at_.push_back(local_[u(p)] + d);
+      const F* t = updates_[u(c)].data();
+      for (std::size_t i = 0; i < at_.size(); ++i) {  // the map ascends: a lower triangle goes to a lower triangle
+        F* target = front_.row(at_[i]);
+        for (std::size_t j = 0; j <= i; ++j) target[at_[j]] = target[at_[j]] + *t++;
+      }
+      std::vector<F>().swap(updates_[u(c)]);
+    }
+  }
+
+  // Number of nonzero pivots. Throws RandomizationFailed.
+  std::int32_t eliminate() { return front_.eliminate(pivots_, inverse_); }
+
+  // The Schur complement on the nodes below, packed lower triangle, waits for the parent.
+  void pass_up(std::size_t s) {
+    const std::int32_t size = front_.size();
+    if (size == pivots_ || tree_.supernodes[s].parent < 0) return;
+    updates_[s].reserve(u(size - pivots_) * u(size - pivots_ + 1) / 2);
+    for (std::int32_t i = pivots_; i < size; ++i)
+      updates_[s].insert(updates_[s].end(), front_.row(i) + pivots_, front_.row(i) + i + 1);
+  }
+
+  std::int32_t pivots() const { return pivots_; }
+  const std::vector<F>& inverse() const { return inverse_; }  // of the pivots, 0 for a dependent column
+  std::vector<F> lower() {                                    // front x pivots, row-major
+    std::vector<F> lower;
+    lower.reserve(u(front_.size()) * u(pivots_));
+    for (std::int32_t i = 0; i < front_.size(); ++i) lower.insert(lower.end(), front_.row(i), front_.row(i) + pivots_);
+    return lower;
+  }
+
+ private:
+  std::int32_t dofs_at(std::int32_t position) const { return dofs_[u(tree_.node_at[u(position)])]; }
+  std::span<const RowBlock<F>> blocks(std::size_t row) const { return rows_.rows.of(u(rows_.selected[row])); }
+  std::int32_t node_of(const RowBlock<F>& block) const { return rows_.node_of_body[u(block.body)]; }
+
+  std::int32_t first_supernode(std::size_t row) const {
+    std::int32_t first = std::numeric_limits<std::int32_t>::max();
+    for (const RowBlock<F>& block : blocks(row)) first = std::min(first, tree_.position[u(node_of(block))]);
+    return tree_.supernode_of[u(first)];
+  }
+  void sort_rows() {  // by the supernode of their first eliminated node
+    row_start_.assign(tree_.supernodes.size() + 1, 0);
+    for (std::size_t r = 0; r < rows_.selected.size(); ++r) ++row_start_[u(first_supernode(r)) + 1];
+    std::partial_sum(row_start_.begin(), row_start_.end(), row_start_.begin());
+    row_list_.resize(u(row_start_.back()));
+    std::vector<std::int32_t> next(row_start_.begin(), row_start_.end() - 1);
+    for (std::size_t r = 0; r < rows_.selected.size(); ++r)
+      row_list_[u(next[u(first_supernode(r))]++)] = static_cast<std::int32_t>(r);
+  }
+
+  const EliminationTree& tree_;
+  const std::vector<std::int8_t>& dofs_;
+  const NodeRows<F>& rows_;
+  std::uint64_t seed_;
+  ModularFront<F> front_;
+  std::int32_t pivots_ = 0;
+  std::vector<F> inverse_;
+  std::vector<std::vector<F>> updates_;              // by supernode, what it passes to its parent
+  std::vector<std::int32_t> local_;                  // position -> first row of that node in the current front
+  std::vector<std::int32_t> row_start_, row_list_;   // rows by supernode
+  std::vector<std::int32_t> first_child_, sibling_;  // of supernodes
+  std::vector<std::int32_t> at_;                     // entries of one row, or of one child
+  std::vector<F> value_;
 };
 
 }  // namespace
 
 template <class F>
-ModularLdlt<F>::ModularLdlt(const EliminationTree& tree, const std::vector<std::int8_t>& dofs,
-                            const std::vector<FieldRow<F>>& rows, std::uint64_t seed, bool keep) {
-  const auto u = [](auto i) { return static_cast<std::size_t>(i); };
-  const std::size_t nodes = dofs.size();
-  offset_.resize(nodes);
-  for (std::size_t n = 0; n < nodes; ++n) offset_[n] = columns_, columns_ += dofs[n];
+ModularLdlt<F>::ModularLdlt(const EliminationTree& tree, const std::vector<std::int8_t>& dofs, const NodeRows<F>& rows,
+                            std::uint64_t seed, bool keep) {
+  offset_.resize(dofs.size());
+  for (std::size_t n = 0; n < dofs.size(); ++n) offset_[n] = columns_, columns_ += dofs[n];
   dependent_.assign(u(columns_), 0);
-  if (keep) factors_.resize(tree.supernodes.size());
 
-  // Rows by the supernode of their first eliminated node.
-  const auto supernode_of_row = [&](const FieldRow<F>& row) {
-    std::int32_t first = -1;
-    for (std::int32_t n : row.node)
-      if (n >= 0 && (first < 0 || tree.position[u(n)] < first)) first = tree.position[u(n)];
-    return first < 0 ? -1 : tree.supernode_of[u(first)];
-  };
-  std::vector<std::int32_t> row_start(tree.supernodes.size() + 1, 0), row_list;
-  for (const auto& row : rows)
-    if (const auto s = supernode_of_row(row); s >= 0) ++row_start[u(s) + 1];
-  for (std::size_t s = 0; s < tree.supernodes.size(); ++s) row_start[s + 1] += row_start[s];
-  row_list.resize(u(row_start.back()));
-  {
-    std::vector<std::int32_t> next(row_start.begin(), row_start.end() - 1);
-    for (std::size_t r = 0; r < rows.size(); ++r)
-      if (const auto s = supernode_of_row(rows[r]); s >= 0) row_list[u(next[u(s)]++)] = static_cast<std::int32_t>(r);
-  }
-  std::vector<std::int32_t> first_child(tree.supernodes.size(), -1), sibling(tree.supernodes.size(), -1);
-  for (std::size_t s = 0; s < tree.supernodes.size(); ++s)
-    if (const auto p = tree.supernodes[s].parent; p >= 0)
-      sibling[s] = first_child[u(p)], first_child[u(p)] = static_cast<std::int32_t>(s);
-
-  ModularFront<F> front;
-  std::vector<Update<F>> updates(tree.supernodes.size());
-  std::vector<std::int32_t> local(nodes, 0);  // position -> first row of that node in the current front
-  std::vector<std::int32_t> map;
-  std::vector<F> inverse;
+  FrontSequence<F> fronts(tree, dofs, rows, seed);
   for (std::size_t s = 0; s < tree.supernodes.size(); ++s) {
-    const Supernode& node = tree.supernodes[s];
-    std::int32_t size = 0;
-    const auto place = [&](std::int32_t position) {
-      local[u(position)] = size;
-      size += dofs[u(tree.node_at[u(position)])];
+    fronts.place_supernode(s);
+    fronts.add_rows(s);
+    fronts.add_children(s);
+    rank_ += fronts.eliminate();
+    fronts.pass_up(s);
+
+    std::vector<std::int64_t> entry;  // of the front
+    const auto append = [&](std::int32_t position) {
+      const std::int32_t node = tree.node_at[u(position)];
+      for (std::int32_t d = 0; d < dofs[u(node)]; ++d) entry.push_back(offset(node) + d);
     };
-    for (std::int32_t p = node.first; p < node.last; ++p) place(p);
-    const std::int32_t pivots = size;
-    for (std::int32_t p : node.below) place(p);
-    front.reset(size);
-
-    for (std::int32_t e = row_start[s]; e < row_start[s + 1]; ++e) {
-      const auto r = u(row_list[u(e)]);
-      const FieldRow<F>& row = rows[r];
-      const F w = weight(seed, r);
-      std::array<std::int32_t, 9> at;
-      std::array<F, 9> value;
-      std::size_t n = 0;
-      for (std::size_t b = 0; b < 3; ++b) {
-        if (row.node[b] < 0) continue;
-        const std::int32_t begin = local[u(tree.position[u(row.node[b])])];
-        for (std::int32_t d = 0; d < dofs[u(row.node[b])]; ++d) {
-          if (row.value[b][u(d)].is_zero()) continue;
-          at[n] = begin + d, value[n++] = row.value[b][u(d)];
-        }
-      }
-      for (std::size_t i = 0; i < n; ++i) {
-        const F wi = w * value[i];
-        for (std::size_t j = 0; j <= i; ++j) front.add(at[i], at[j], wi * value[j]);
-      }
-    }
-    for (std::int32_t c = first_child[s]; c >= 0; c = sibling[u(c)]) {
-      map.clear();
-      for (std::int32_t p : tree.supernodes[u(c)].below)
-        for (std::int32_t d = 0; d < dofs[u(tree.node_at[u(p)])]; ++d) map.push_back(local[u(p)] + d);
-      const F* t = updates[u(c)].triangle.data();
-      for (std::size_t i = 0; i < map.size(); ++i) {  // the map ascends: a lower triangle goes to a lower triangle
-        F* target = front.row(map[i]);
-        for (std::size_t j = 0; j <= i; ++j) target[map[j]] = target[map[j]] + *t++;
-      }
-      std::vector<F>().swap(updates[u(c)].triangle);
-    }
-
-    rank_ += front.eliminate(pivots, inverse);
-    const auto entry_of = [&](std::int32_t p, std::int32_t d) { return offset_[u(tree.node_at[u(p)])] + d; };
-    for (std::int32_t p = node.first; p < node.last; ++p)
-      for (std::int32_t d = 0; d < dofs[u(tree.node_at[u(p)])]; ++d)
-        dependent_[u(entry_of(p, d))] = inverse[u(local[u(p)] + d)].is_zero();
-    if (size > pivots && node.parent >= 0) {
-      auto& triangle = updates[s].triangle;
-      triangle.reserve(u(size - pivots) * u(size - pivots + 1) / 2);
-      for (std::int32_t i = pivots; i < size; ++i)
-        triangle.insert(triangle.end(), front.row(i) + pivots, front.row(i) + i + 1);
-    }
-    if (keep) {
-      Factor& f = factors_[s];
-      f.pivots = pivots;
-      f.inverse_pivot = inverse;
-      f.entry.reserve(u(size));
-      for (std::int32_t p = node.first; p < node.last; ++p)
-        for (std::int32_t d = 0; d < dofs[u(tree.node_at[u(p)])]; ++d) f.entry.push_back(entry_of(p, d));
-      for (std::int32_t p : node.below)
-        for (std::int32_t d = 0; d < dofs[u(tree.node_at[u(p)])]; ++d) f.entry.push_back(entry_of(p, d));
-      f.lower.reserve(u(size) * u(pivots));
-      for (std::int32_t i = 0; i < size; ++i) f.lower.insert(f.lower.end(), front.row(i), front.row(i) + pivots);
-    }
+    for (std::int32_t p = tree.supernodes[s].first; p < tree.supernodes[s].last; ++p) append(p);
+    for (std::size_t k = 0; k < entry.size(); ++k) dependent_[u(entry[k])] = fronts.inverse()[k].is_zero();
+    if (!keep) continue;
+    for (std::int32_t p : tree.supernodes[s].below) append(p);
+    factors_.push_back({std::move(entry), fronts.pivots(), fronts.lower(), fronts.inverse()});
   }
 }
 

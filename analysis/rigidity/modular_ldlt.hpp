@@ -11,21 +11,23 @@
 
 #include "analysis/rigidity/elimination_tree.hpp"
 #include "analysis/rigidity/modular_front.hpp"
+#include "analysis/rigidity/rows.hpp"
 
 namespace isostat {
 
-// One row of G: up to three blocks, each on the dofs of one node.
+// The rows that are eliminated, and the node that each of their bodies has become (-1 does not occur in them).
 template <class F>
-struct FieldRow {
-  std::array<std::int32_t, 3> node = {-1, -1, -1};  // -1: no block
-  std::array<std::array<F, 3>, 3> value{};          // by block and dof; beyond the node's dofs ignored
+struct NodeRows {
+  const Rows<F>& rows;
+  const std::vector<std::int32_t>& selected;      // indices into rows
+  const std::vector<std::int32_t>& node_of_body;  // the strain's last
 };
 
 template <class F>
 class ModularLdlt {
  public:
   // dofs[node] in 1..3. keep: store L for solving (memory: the factor). Throws RandomizationFailed.
-  ModularLdlt(const EliminationTree& tree, const std::vector<std::int8_t>& dofs, const std::vector<FieldRow<F>>& rows,
+  ModularLdlt(const EliminationTree& tree, const std::vector<std::int8_t>& dofs, const NodeRows<F>& rows,
               std::uint64_t seed, bool keep);
 
   std::int64_t rank() const { return rank_; }
@@ -39,7 +41,6 @@ class ModularLdlt {
   std::vector<F> random_null_vector(std::uint64_t seed) const;
   // A solution of A x = b, b in the range of A, zero at the dependent columns. Needs keep.
   std::vector<F> solve(std::vector<F> b) const;
-  static F weight(std::uint64_t seed, std::size_t row) { return F::random(seed, row); }
 
  private:
   struct Factor {

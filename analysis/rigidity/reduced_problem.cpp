@@ -11,7 +11,7 @@ ReducedProblem<F> reduce_problem(const Packing<2>& packing, NetworkLaw law, bool
     return std::chrono::duration<double>(Clock::now() - from).count();
   };
   ReducedProblem<F> p;
-  p.per_body = law == NetworkLaw::frictionless ? 2 : 3;
+  p.per_body = dof_layout(packing, law, cell_free).per_body;
 
   auto start = Clock::now();
   p.bodies = contract_rigid_bodies(packing, law);
@@ -23,42 +23,37 @@ ReducedProblem<F> reduce_problem(const Packing<2>& packing, NetworkLaw law, bool
   p.assembly_seconds = seconds(start);
 
   start = Clock::now();
-  p.node_of_body.assign(static_cast<std::size_t>(p.bodies.count), -1);
-  std::vector<char> touched(static_cast<std::size_t>(p.bodies.count), 0);
-  for (std::int32_t r : p.network.rows) {
-    touched[static_cast<std::size_t>(p.rows[static_cast<std::size_t>(r)].a)] = 1;
-    touched[static_cast<std::size_t>(p.rows[static_cast<std::size_t>(r)].b)] = 1;
-  }
+  const auto bodies = static_cast<std::size_t>(p.bodies.count);
+  p.node_of_body.assign(bodies + 1, -1);
+  std::vector<char> touched(bodies + 1, 0);
+  for (std::int32_t r : p.network.rows)
+    for (const RowBlock<F>& block : p.rows.of(static_cast<std::size_t>(r)))
+      touched[static_cast<std::size_t>(block.body)] = 1;
+  const auto add_node = [&](std::int32_t body, int dofs) {
+    p.node_of_body[static_cast<std::size_t>(body)] = static_cast<std::int32_t>(p.body_of_node.size());
+    p.body_of_node.push_back(body);
+    p.dofs.push_back(static_cast<std::int8_t>(dofs));
+  };
   for (std::int32_t b : p.network.bodies) {
-    if (!touched[static_cast<std::size_t>(b)]) {
+    if (touched[static_cast<std::size_t>(b)])
+      add_node(b, p.per_body);
+    else
       ++p.free_bodies;
-      continue;
-    }
-    p.node_of_body[static_cast<std::size_t>(b)] = static_cast<std::int32_t>(p.body_of_node.size());
-    p.body_of_node.push_back(b);
-    p.dofs.push_back(static_cast<std::int8_t>(p.per_body));
   }
-  if (cell_free) {
-    p.strain_node = static_cast<std::int32_t>(p.body_of_node.size());
-    p.body_of_node.push_back(-1);
-    p.dofs.push_back(2);
-  }
-  // The strain node is joined by topology (a row through an image), so that any geometry fits.
+  if (cell_free) add_node(p.bodies.count, 2);
+
   std::vector<std::pair<std::int32_t, std::int32_t>> edges;
   edges.reserve(p.network.rows.size());
   for (std::int32_t r : p.network.rows) {
-    const BodyRow<F>& row = p.rows[static_cast<std::size_t>(r)];
-    const std::int32_t a = p.node_of_body[static_cast<std::size_t>(row.a)],
-                       b = p.node_of_body[static_cast<std::size_t>(row.b)];
-    if (edges.empty() || edges.back() != std::pair{a, b}) edges.push_back({a, b});
-    if (p.strain_node >= 0 && p.bodies.image(packing.links[static_cast<std::size_t>(row.link)]) != ImageShift<2>{}) {
-      const auto link_edge = edges.back();
-      edges.push_back({a, p.strain_node});
-      if (b != a) edges.push_back({b, p.strain_node});
-      edges.push_back(link_edge);
-    }
+    const auto blocks = p.rows.of(static_cast<std::size_t>(r));
+    for (std::size_t a = 0; a < blocks.size(); ++a)
+      for (std::size_t b = a + 1; b < blocks.size(); ++b) {
+        const std::pair edge = {p.node_of_body[static_cast<std::size_t>(blocks[a].body)],
+                                p.node_of_body[static_cast<std::size_t>(blocks[b].body)]};
+        if (edges.empty() || edges.back() != edge) edges.push_back(edge);
+      }
   }
-  p.tree = elimination_tree(static_cast<std::int32_t>(p.dofs.size()), edges, p.strain_node);
+  p.tree = elimination_tree(static_cast<std::int32_t>(p.dofs.size()), edges, p.strain_node());
   p.ordering_seconds = seconds(start);
   return p;
 }

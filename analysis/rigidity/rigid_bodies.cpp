@@ -118,7 +118,7 @@ class Contraction {
     for (std::size_t l = 0; l < packing.links.size(); ++l) {
       const Link<2>& link = packing.links[l];
       const LinkRows rows = rows_of(link.kind, law);
-      if (rows.tangential && rows.moment)
+      if (rows.tangential && rows.rolling)
         glue(link);
       else if (rows.tangential)
         pin_link_.push_back(static_cast<std::int32_t>(l));

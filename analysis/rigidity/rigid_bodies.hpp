@@ -21,6 +21,9 @@ struct RigidBodies {
   std::vector<ImageShift<2>> placement;  // grain -> image a_i: x_i = r_i + a_i L lies in the frame of its body
   std::int32_t count = 0;
 
+  bool same(const Link<2>& link) const {
+    return body_of[static_cast<std::size_t>(link.i)] == body_of[static_cast<std::size_t>(link.j)];
+  }
   // Image of the body of j that a link i -> j (shift s) is about, seen from the body of i.
   ImageShift<2> image(const Link<2>& link) const {
     const auto &a = placement[static_cast<std::size_t>(link.i)], &b = placement[static_cast<std::size_t>(link.j)];

@@ -21,7 +21,7 @@ Vec2 branch_vector(const Packing<2>& packing, const Link<2>& link) {
 RigidityMatrix rigidity_matrix(const Packing<2>& packing, NetworkLaw law, bool cell_free) {
   if (cell_free && !packing.cell) throw InputError("command line", 0, "--cell", "free", "the input has no cell");
   RigidityMatrix g;
-  g.layout = dof_layout(packing.bodies.size(), law, cell_free);
+  g.layout = dof_layout(packing, law, cell_free);
   const auto rows = static_cast<std::size_t>(row_count(packing, law));
   const int per_body = g.layout.per_body;
   g.row_start.reserve(rows + 1);
@@ -34,43 +34,29 @@ RigidityMatrix rigidity_matrix(const Packing<2>& packing, NetworkLaw law, bool c
     const Vec2 r = branch_vector(packing, link);
     const auto f = link_frame(r[0], r[1], packing.bodies.radius[static_cast<std::size_t>(link.i)],
                               packing.bodies.radius[static_cast<std::size_t>(link.j)]);
-    // One column a unit motion: the row entries are the link velocities of unit body velocities.
-    const auto velocity = [&](double dvx, double dvy, double spin_i, double spin_j) {
-      const auto v = link_velocity(f, dvx, dvy, spin_i, spin_j);
-      return std::array<double, 3>{v.normal, v.tangential, v.rolling};
-    };
-    const std::array<std::array<double, 3>, 3> of_i = {velocity(-1, 0, 0, 0), velocity(0, -1, 0, 0),
-                                                       velocity(0, 0, 1, 0)};
-    const std::array<std::array<double, 3>, 3> of_j = {velocity(1, 0, 0, 0), velocity(0, 1, 0, 0),
-                                                       velocity(0, 0, 0, 1)};
-    const std::array<std::array<double, 3>, 2> of_strain = {velocity(-r[0], 0, 0, 0), velocity(0, -r[1], 0, 0)};
-
     const LinkRows kept = rows_of(link.kind, law);
-    const std::array<bool, 3> present = {kept.normal, kept.tangential, kept.moment};
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (!present[c]) continue;
-      const bool j_first = link.j < link.i;
+    for (const RowKind kind : kRowKinds) {
+      if (!kept[kind]) continue;
+      const LinkLoad<double> load = unit_load(kind, f);  // a column a body force: G is the transpose of that map
+      const std::array<double, 3> on_i = {-load.fx, -load.fy, load.moment_i}, on_j = {load.fx, load.fy, load.moment_j};
       const auto add = [&](std::int64_t column, double value) {
         g.column.push_back(column);
         g.value.push_back(value);
       };
-      for (int d = 0; d < per_body; ++d) {
-        const auto u = static_cast<std::size_t>(d);
-        const std::int64_t base = static_cast<std::int64_t>(per_body) * (j_first ? link.j : link.i) + d;
-        if (link.i == link.j)
-          add(base, of_i[u][c] + of_j[u][c]);
-        else
-          add(base, j_first ? of_j[u][c] : of_i[u][c]);
-      }
-      if (link.i != link.j)
+      const auto add_body = [&](std::int32_t body, const std::array<double, 3>& at) {
         for (int d = 0; d < per_body; ++d)
-          add(static_cast<std::int64_t>(per_body) * (j_first ? link.i : link.j) + d,
-              (j_first ? of_i : of_j)[static_cast<std::size_t>(d)][c]);
-      for (int a = 0; a < g.layout.strains; ++a)
-        add(g.layout.strain_column(a), of_strain[static_cast<std::size_t>(a)][c]);
+          add(static_cast<std::int64_t>(per_body) * body + d, at[static_cast<std::size_t>(d)]);
+      };
+      if (link.i == link.j)
+        add_body(link.i, {on_i[0] + on_j[0], on_i[1] + on_j[1], on_i[2] + on_j[2]});
+      else if (link.i < link.j)
+        add_body(link.i, on_i), add_body(link.j, on_j);
+      else
+        add_body(link.j, on_j), add_body(link.i, on_i);
+      if (cell_free) add(g.layout.strain_column(0), -load.fx * r[0]), add(g.layout.strain_column(1), -load.fy * r[1]);
       g.row_start.push_back(static_cast<std::int64_t>(g.column.size()));
       g.link_of_row.push_back(static_cast<std::int32_t>(l));
-      g.component.push_back(static_cast<std::int8_t>(c));
+      g.kind.push_back(kind);
     }
   }
   return g;
@@ -115,9 +101,7 @@ std::vector<double> link_forces(const Packing<2>& packing, const RigidityMatrix&
   std::vector<double> f(static_cast<std::size_t>(matrix.rows()));
   for (std::size_t r = 0; r < f.size(); ++r) {
     const Link<2>& link = packing.links[static_cast<std::size_t>(matrix.link_of_row[r])];
-    f[r] = matrix.component[r] == 0   ? link.normal_force
-           : matrix.component[r] == 1 ? link.tangential_force
-                                      : link.moment;
+    f[r] = ByRow<double>{link.normal_force, link.tangential_force, link.moment}[matrix.kind[r]];
   }
   return f;
 }

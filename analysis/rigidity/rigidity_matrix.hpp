@@ -15,7 +15,7 @@ struct RigidityMatrix {
   std::vector<std::int64_t> column;       // ascending within a row; equal columns are already summed
   std::vector<double> value;              // [-] normal, tangential in velocities; [a] at spins; strains [a]
   std::vector<std::int32_t> link_of_row;  // index into Packing::links
-  std::vector<std::int8_t> component;     // 0 normal, 1 tangential, 2 moment
+  std::vector<RowKind> kind;
 
   std::int64_t rows() const { return static_cast<std::int64_t>(row_start.size()) - 1; }
   std::int64_t columns() const { return layout.size(); }

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Vector = std::vector<double>;
-using Rows = std::array<Vector, 3>;  // by link: N, T, M; 0 for a row that the link has not
+using LinkForces = ByRow<Vector>;  // by link; 0 for a row that the link has not
 
 constexpr double kTouched = 1e-9;  // of the largest component: smaller ones count as rounding in "grains", "links"
 
@@ -36,16 +36,17 @@ Question question(const AnalysisInput& input, const AnalysisOptions& options) {
           rigidity_matrix(packing, law, options.cell_free)};
 }
 
-Rows by_link(const Question& q, const Vector& of_row) {
-  Rows rows;
-  for (Vector& v : rows) v.assign(q.packing.links.size(), 0.0);
+LinkForces by_link(const Question& q, const Vector& of_row) {
+  LinkForces forces;
+  for (const RowKind kind : kRowKinds) forces[kind].assign(q.packing.links.size(), 0.0);
   for (std::size_t r = 0; r < of_row.size(); ++r)
-    rows[static_cast<std::size_t>(q.g.component[r])][static_cast<std::size_t>(q.g.link_of_row[r])] = of_row[r];
-  return rows;
+    forces[q.g.kind[r]][static_cast<std::size_t>(q.g.link_of_row[r])] = of_row[r];
+  return forces;
 }
 
-bool zero_link(const Rows& rows, std::size_t link, double below) {
-  return std::all_of(rows.begin(), rows.end(), [&](const Vector& v) { return std::abs(v[link]) <= below; });
+bool zero_link(const LinkForces& forces, std::size_t link, double below) {
+  return std::all_of(kRowKinds.begin(), kRowKinds.end(),
+                     [&](RowKind kind) { return std::abs(forces[kind][link]) <= below; });
 }
 
 Vector link_columns(const Packing<2>& packing, std::size_t link) {
@@ -76,9 +77,9 @@ Json floppy_json(const Question& q, std::int64_t of) {
 Json self_stress_json(const Question& q, std::int64_t of) {
   Json list = Json::array();
   for (const NullVector& v : self_stress_states(q.packing, q.law, q.cell_free, q.most)) {
-    const Rows rows = by_link(q, v.value);
+    const LinkForces forces = by_link(q, v.value);
     std::int64_t links = 0;
-    for (std::size_t l = 0; l < q.packing.links.size(); ++l) links += !zero_link(rows, l, kTouched);
+    for (std::size_t l = 0; l < q.packing.links.size(); ++l) links += !zero_link(forces, l, kTouched);
     list.push_back({{"links", links}, {"residual", v.residual}});
   }
   return {{"given", list.size()}, {"of", of}, {"list", list}};
@@ -138,22 +139,22 @@ std::vector<Table> bases_tables(const AnalysisInput& input, const AnalysisOption
     number = 0;
     for (const NullVector& v : self_stress_states(q.packing, q.law, q.cell_free, q.most)) {
       ++number;
-      const Rows rows = by_link(q, v.value);
+      const LinkForces forces = by_link(q, v.value);
       for (std::size_t l = 0; l < q.packing.links.size(); ++l) {
-        if (zero_link(rows, l, 0)) continue;
+        if (zero_link(forces, l, 0)) continue;
         Vector line = link_columns(q.packing, l);
         line.insert(line.begin(), number);
-        for (const Vector& v_of : rows) line.push_back(v_of[l]);
+        for (const RowKind kind : kRowKinds) line.push_back(forces[kind][l]);
         states.rows.push_back(std::move(line));
       }
     }
     if (read_forces(input).known) {
       const ForceSplit parts = split_forces(q.packing, q.law, q.cell_free, link_forces(q.packing, q.g));
-      const Rows balancing = by_link(q, parts.balancing), self_stress = by_link(q, parts.self_stress);
+      const LinkForces balancing = by_link(q, parts.balancing), self_stress = by_link(q, parts.self_stress);
       for (std::size_t l = 0; l < q.packing.links.size(); ++l) {
         Vector line = link_columns(q.packing, l);
-        for (const Rows* rows : {&balancing, &self_stress})
-          for (const Vector& v_of : *rows) line.push_back(v_of[l]);
+        for (const LinkForces* forces : {&balancing, &self_stress})
+          for (const RowKind kind : kRowKinds) line.push_back((*forces)[kind][l]);
         split.rows.push_back(std::move(line));
       }
     }

@@ -6,7 +6,8 @@ namespace isostat {
 
 LinkTangent::Response LinkTangent::operator()(double dx, double dy, double spin_i, double spin_j) const {
   const auto v = link_velocity(f, dx, dy, spin_i, spin_j);
-  const double dn = -k_normal * v.normal, dt = -k_tangential * v.tangential, dm = -k_moment * v.rolling;
+  const double dn = -stiffness.normal * v.normal, dt = -stiffness.tangential * v.tangential,
+               dm = -stiffness.rolling * v.rolling;
   const double tx = -f.ny, ty = f.nx;
   const double turn = (tx * dx + ty * dy) / f.distance;  // of the frame
   const double stretch = v.normal / (radius_i + radius_j);
@@ -34,15 +35,13 @@ std::vector<LinkTangent> link_tangents(const Packing<2>& packing, NetworkLaw net
   }
   const RigidityMatrix g = rigidity_matrix(packing, network_law, false);
   const std::vector<double> stiffness = row_stiffness(packing, g, law);
-  for (std::size_t r = 0; r < stiffness.size(); ++r) {
-    LinkTangent& of = tangents[static_cast<std::size_t>(g.link_of_row[r])];
-    (g.component[r] == 0 ? of.k_normal : g.component[r] == 1 ? of.k_tangential : of.k_moment) = stiffness[r];
-  }
+  for (std::size_t r = 0; r < stiffness.size(); ++r)
+    tangents[static_cast<std::size_t>(g.link_of_row[r])].stiffness[g.kind[r]] = stiffness[r];
   return tangents;
 }
 
 UnsymmetricMatrix tangent_stiffness(const Packing<2>& packing, NetworkLaw network_law, const DiskLaw& law) {
-  const DofLayout layout = dof_layout(packing.bodies.size(), network_law, false);
+  const DofLayout layout = dof_layout(packing, network_law, false);
   const std::vector<LinkTangent> tangents = link_tangents(packing, network_law, law);
   Triplets entries;
   for (std::size_t l = 0; l < tangents.size(); ++l) {

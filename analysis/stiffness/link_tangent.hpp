@@ -16,7 +16,7 @@ struct LinkTangent {
   Vec2 branch;  // [a] r_ij
   double radius_i, radius_j;
   double normal, tangential, moment;  // forces now
-  double k_normal = 0, k_tangential = 0, k_moment = 0;
+  ByRow<double> stiffness{};
 
   struct Response {
     double fx, fy, moment_i, moment_j;  // change of the force on j (opposite on i) and of the moments

@@ -22,7 +22,7 @@ std::array<std::vector<double>, 3> strain_velocities(const Packing<2>& packing, 
     const std::array<Vec2, 3> affine = {Vec2{{-r[0], 0}}, Vec2{{0, -r[1]}}, Vec2{{-0.5 * r[1], -0.5 * r[0]}}};
     for (std::size_t b = 0; b < 3; ++b) {
       const auto v = link_velocity(frame, affine[b][0], affine[b][1], 0.0, 0.0);
-      s[b][row] = g.component[row] == 0 ? v.normal : g.component[row] == 1 ? v.tangential : v.rolling;
+      s[b][row] = ByRow<double>{v.normal, v.tangential, v.rolling}[g.kind[row]];
     }
   }
   return s;

@@ -20,7 +20,7 @@ std::vector<double> smallest_singular_values(const Packing<2>& packing, NetworkL
   const double mean_radius = std::accumulate(radius.begin(), radius.end(), 0.0) / static_cast<double>(radius.size());
   std::vector<double> weight(static_cast<std::size_t>(g.rows()), 1.0), scale;
   for (std::size_t r = 0; r < weight.size(); ++r)
-    if (g.component[r] == 2) weight[r] = mean_radius * mean_radius;
+    if (g.kind[r] == RowKind::rolling) weight[r] = mean_radius * mean_radius;
   for (double r : radius) {
     scale.insert(scale.end(), {1.0, 1.0});
     if (g.layout.per_body == 3) scale.push_back(r * r);

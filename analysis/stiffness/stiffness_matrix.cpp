@@ -11,16 +11,14 @@ namespace isostat {
 DiskLaw default_network_law() { return resolve(LawScene{}); }
 
 std::vector<double> row_stiffness(const Packing<2>& packing, const RigidityMatrix& g, const DiskLaw& law) {
+  const ByRow<double> contact = {law.normal_stiffness, law.tangential_stiffness, law.rolling_stiffness};
   std::vector<double> k(static_cast<std::size_t>(g.rows()));
   for (std::size_t r = 0; r < k.size(); ++r) {
     const bool distant = packing.links[static_cast<std::size_t>(g.link_of_row[r])].kind == LinkKind::distant;
     if (distant && !(law.attraction_range > 0))
       throw InputError("network", 0, "contact.TYPE", "d",
                        "a distant link has a stiffness only under a law with attraction");
-    k[r] = distant               ? -law.attraction / law.attraction_range
-           : g.component[r] == 0 ? law.normal_stiffness
-           : g.component[r] == 1 ? law.tangential_stiffness
-                                 : law.rolling_stiffness;
+    k[r] = distant ? -law.attraction / law.attraction_range : contact[g.kind[r]];
   }
   return k;
 }

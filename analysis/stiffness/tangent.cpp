@@ -4,7 +4,7 @@
 
 namespace isostat {
 TangentModuli tangent_moduli(const Packing<2>& packing, NetworkLaw network_law, const DiskLaw& law) {
-  const std::int32_t per_body = dof_layout(packing.bodies.size(), network_law, false).per_body;
+  const std::int32_t per_body = dof_layout(packing, network_law, false).per_body;
   const auto count = packing.bodies.size();
 
   // Unknowns: bodies with links, the first of each connected piece held against translation.

@@ -86,4 +86,21 @@ inline LinkLoad<Real> link_load(const LinkFrame<Real>& f, Real normal, Real tang
           moment - tangential * f.lever_j};
 }
 
+// Loads of unit link forces times a positive factor that leaves no root: rational in r_ij = (x, y) and the radii, so
+// that an exact field can take them. A row of G is such a load (G^T takes link forces to body forces), scaled or not;
+// exact rank and the rows of doubles stand on link_load() and these, and a test holds the two together.
+template <class Real>
+inline LinkLoad<Real> rational_normal(Real x, Real y) {  // times |r|
+  return {x, y, Real{}, Real{}};
+}
+template <class Real>
+inline LinkLoad<Real> rational_tangential(Real x, Real y, Real radius_i, Real radius_j) {  // times |r| (R_i + R_j)
+  const Real sum = radius_i + radius_j, square = x * x + y * y;
+  return {-(y * sum), x * sum, -(square * radius_i), -(square * radius_j)};
+}
+template <class Real>
+inline LinkLoad<Real> rational_rolling() {  // as it is
+  return {Real{}, Real{}, -Real(1), Real(1)};
+}
+
 }  // namespace isostat

@@ -94,7 +94,7 @@ TEST(BasesSection, TablesHoldNullVectorsOfG) {
       std::vector<double> rows(static_cast<std::size_t>(g.rows()), 0.0);
       for (std::size_t r = 0; r < rows.size(); ++r)
         if (const auto at = state.find(static_cast<std::size_t>(g.link_of_row[r])); at != state.end())
-          rows[r] = at->second[static_cast<std::size_t>(g.component[r])];
+          rows[r] = at->second[static_cast<std::size_t>(g.kind[r])];
       EXPECT_DOUBLE_EQ(largest(rows), 1);
       EXPECT_LT(largest(g.body_forces(rows)), 1e-9);
     }

@@ -56,7 +56,7 @@ Packing<2> moved(const Packing<2>& p, NetworkLaw network_law, const DiskLaw& law
     if (rows.tangential)
       link.tangential_force -= law.tangential_stiffness *
                                ((-before[1] * step[0] + before[0] * step[1]) / r - lever * (ri * spin_i + rj * spin_j));
-    if (rows.moment) link.moment -= law.rolling_stiffness * (spin_j - spin_i);
+    if (rows.rolling) link.moment -= law.rolling_stiffness * (spin_j - spin_i);
   }
   return q;
 }

@@ -67,10 +67,9 @@ TEST(RigidityMatrix, RowsAreTheLinkVelocitiesOfTheKernels) {
       Vec2 dv = p.bodies.velocity[j] - p.bodies.velocity[i];
       if (cell_free) dv -= Vec2{{rate[0] * d[0], rate[1] * d[1]}};
       const auto v = link_velocity(frame, dv[0], dv[1], p.bodies.spin[i], p.bodies.spin[j]);
-      const double expected[] = {v.normal, v.tangential, v.rolling};
-      EXPECT_NEAR(velocities[r], expected[g.component[r]], 1e-13);
-      const double nf = g.component[r] == 0 ? f[r] : 0, tf = g.component[r] == 1 ? f[r] : 0,
-                   mf = g.component[r] == 2 ? f[r] : 0;
+      EXPECT_NEAR(velocities[r], (ByRow<double>{v.normal, v.tangential, v.rolling}[g.kind[r]]), 1e-13);
+      const double nf = g.kind[r] == RowKind::normal ? f[r] : 0, tf = g.kind[r] == RowKind::tangential ? f[r] : 0,
+                   mf = g.kind[r] == RowKind::rolling ? f[r] : 0;
       const auto load = link_load(frame, nf, tf, mf);
       forces[3 * j] += load.fx, forces[3 * j + 1] += load.fy, forces[3 * j + 2] += load.moment_j;
       forces[3 * i] -= load.fx, forces[3 * i + 1] -= load.fy, forces[3 * i + 2] += load.moment_i;

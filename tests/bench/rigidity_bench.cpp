@@ -1,5 +1,5 @@
 // Exact rank: time and memory against N. CSV on stdout.
-//   rigidity_bench [largest N]
+//   rigidity_bench [largest N [smallest N]]
 #include <sys/resource.h>
 
 #include <chrono>
@@ -14,12 +14,13 @@
 using namespace isostat;
 
 int main(int argc, char** argv) {
-  const double largest = argc > 1 ? std::atof(argv[1]) : 1e5;
+  const double largest = argc > 1 ? std::atof(argv[1]) : 1e5, smallest = argc > 2 ? std::atof(argv[2]) : 0;
   std::printf(
       "N,law,cell,coordination,K,H,K_generic,certified,bodies,columns,cpu_seconds,wall_seconds,contraction,assembly,"
       "ordering,"
       "elimination,peak_MB\n");
   for (double n : {100.0, 400.0, 1400.0, 5600.0, 22400.0, 1e5, 1e6}) {
+    if (n < smallest) continue;
     if (n > largest) break;
     for (const NetworkLaw law : {NetworkLaw::friction, NetworkLaw::rolling, NetworkLaw::frictionless})
       for (const double z : {3.1, 4.0}) {

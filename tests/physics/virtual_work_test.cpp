@@ -54,7 +54,7 @@ Eigen::MatrixXd assemble(const Packing<2>& p) {
     for (std::int64_t k = m.row_start[static_cast<std::size_t>(r)]; k < m.row_start[static_cast<std::size_t>(r) + 1];
          ++k) {
       const auto at = static_cast<std::size_t>(r);
-      g(3 * m.link_of_row[at] + m.component[at], m.column[static_cast<std::size_t>(k)]) +=
+      g(3 * m.link_of_row[at] + static_cast<int>(m.kind[at]), m.column[static_cast<std::size_t>(k)]) +=
           m.value[static_cast<std::size_t>(k)];
     }
   return g;
