@@ -69,6 +69,8 @@ int convert_command(int argc, char** argv) {
     throw InputError("command line", 0, "--gap-tolerance", *arguments.value("--gap-tolerance"), "must not be negative");
 
   const PackingFile file = read_packing(input_path, reading);
+  if (!file.state.packing.beams.empty() && !output.ends_with(".net") && !output.ends_with(".vtp"))
+    throw InputError(input_path, 0, "-o", output, "beams are kept by .net files only (and drawn in .vtp)");
   if (output.ends_with(".h5")) {
     if (file.packing_3d)
       throw InputError(input_path, 0, "-o", output, "a state file holds planar packings; this one is in 3D");

@@ -8,6 +8,7 @@
 
 #include "dem/files/atomic_file.hpp"
 #include "dem/input_error.hpp"
+#include "dem/state/beam.hpp"
 #include "dem/state/link_ends.hpp"
 #include "dem/state/touching.hpp"
 
@@ -58,23 +59,25 @@ class NetworkParser {
         cell(line, f);
       else if (f[0] == "grain")
         grain(line, f);
-      else if (f[0] == "contact")
-        contacts_.push_back({line, {f.begin(), f.end()}});
+      else if (f[0] == "contact" || f[0] == "beam")
+        links_.push_back({line, {f.begin(), f.end()}});
       else
-        fault(line, "", f[0], "a line starts with cell, grain or contact");
+        fault(line, "", f[0], "a line starts with cell, grain, contact or beam");
     }
     check_placement();
-    for (const auto& [at, fields] : contacts_) contact(at, fields);
+    for (const auto& [at, fields] : links_) {
+      const bool is_beam = fields[0] == "beam";
+      file_.links_given = file_.links_given || !is_beam;
+      is_beam ? beam(at, fields) : contact(at, fields);
+    }
     if (file_.packing.bodies.size() == 0 && faults_.empty()) fault(0, "grain", "", "the file has no grain line");
-    if (contacts_.empty() && faults_.empty() && !cell_fits(file_.packing))
+    if (!file_.links_given && faults_.empty() && !cell_fits(file_.packing))
       fault(cell_line_, "cell", "", "an edge is below 0.1 of the largest radius: check the units");
     if (!faults_.empty()) throw InputError(std::move(faults_));
 
     set_masses();
-    file_.links_given = !contacts_.empty();
     if (!file_.links_given)
-      file_.packing.links =
-          touching_links(file_.packing, gap_tolerance.value_or(default_gap_tolerance(file_.packing.bodies)));
+      find_contacts(file_.packing, gap_tolerance.value_or(default_gap_tolerance(file_.packing.bodies)));
     return std::move(file_);
   }
 
@@ -157,31 +160,53 @@ class NetworkParser {
     if (f.size() != 4 && f.size() != D + 4)
       return fault(line, "contact", std::to_string(f.size() - 1) + " fields",
                    D == 2 ? "contact I J TYPE [S1 S2]" : "contact I J TYPE [S1 S2 S3]");
-    const auto i = end_of_contact(line, "contact.I", f[1]), j = end_of_contact(line, "contact.J", f[2]);
     const auto kind = link_kind_from_letters(f[3]);
     if (!kind) fault(line, "contact.TYPE", f[3], "one of c, s, r, sr, d");
-    ImageShift<D> shift{};
-    bool good = i && j && kind;
-    if (f.size() > 4) {
-      for (std::size_t k = 0; k < D; ++k) {
-        const std::string key = "contact.S" + std::to_string(k + 1);
-        const auto s = number<int>(f[4 + k]);
-        if (!s || std::abs(static_cast<double>(*s)) > 1e8) {
-          fault(line, key, f[4 + k], "must be an integer of at most 1e8");
-          good = false;
-        } else if (*s != 0 && !has_cell_) {
-          fault(line, key, f[4 + k], "an image shift needs a cell line");
-          good = false;
-        } else {
-          shift[k] = *s;
-        }
-      }
-    }
-    if (!good || (has_cell_ && !file_.packing.cell)) return;
-    add_link(line, *i, *j, *kind, shift, f.size() > 4);
+    const auto ends = ends_of_link(line, f, 4);
+    if (ends && kind) add_link(line, "contact", *ends, *kind);
   }
 
-  std::optional<std::int32_t> end_of_contact(int line, const std::string& key, std::string_view text) {
+  void beam(int line, const Fields& f) {
+    if constexpr (D == 3) return fault(line, "beam", "", "beams join grains of the plane; this network is in space");
+    if (f.size() != 3 && f.size() != D + 3)
+      return fault(line, "beam", std::to_string(f.size() - 1) + " fields", "beam I J [S1 S2]");
+    if (const auto ends = ends_of_link(line, f, 3)) add_link(line, "beam", *ends, LinkKind::beam);
+  }
+
+  // Bodies and image of a link line; shifts, if any, stand from field `first_shift` on.
+  struct Ends {
+    std::int32_t i, j;
+    ImageShift<D> shift;
+  };
+  std::optional<Ends> ends_of_link(int line, const Fields& f, std::size_t first_shift) {
+    const std::string key(f[0]);
+    const auto i = known_grain(line, key + ".I", f[1]), j = known_grain(line, key + ".J", f[2]);
+    bool good = i && j;
+    ImageShift<D> shift{};
+    const bool given = f.size() > first_shift;
+    for (std::size_t k = 0; given && k < D; ++k) {
+      const std::string shift_key = key + ".S" + std::to_string(k + 1);
+      const std::string_view text = f[first_shift + k];
+      const auto s = number<int>(text);
+      if (!s || std::abs(static_cast<double>(*s)) > 1e8) {
+        fault(line, shift_key, text, "must be an integer of at most 1e8");
+        good = false;
+      } else if (*s != 0 && !has_cell_) {
+        fault(line, shift_key, text, "an image shift needs a cell line");
+        good = false;
+      } else {
+        shift[k] = *s;
+      }
+    }
+    if (!good || (has_cell_ && !file_.packing.cell)) return std::nullopt;
+    const auto& position = file_.packing.bodies.position;
+    if (has_cell_ && !given)
+      shift = file_.packing.cell->nearest_image(position[static_cast<std::size_t>(*j)] -
+                                                position[static_cast<std::size_t>(*i)]);
+    return Ends{*i, *j, shift};
+  }
+
+  std::optional<std::int32_t> known_grain(int line, const std::string& key, std::string_view text) {
     const auto id = number<std::int64_t>(text);
     if (!id) {
       fault(line, key, text, "must be an integer");
@@ -193,29 +218,37 @@ class NetworkParser {
     return std::nullopt;
   }
 
-  void add_link(int line, std::int32_t i, std::int32_t j, LinkKind kind, ImageShift<D> shift, bool shift_given) {
+  void add_link(int line, const std::string& word, const Ends& ends, LinkKind kind) {
     const Bodies<D>& b = file_.packing.bodies;
+    const auto [i, j, shift] = ends;
     const auto ui = static_cast<std::size_t>(i), uj = static_cast<std::size_t>(j);
-    if (file_.packing.cell && !shift_given) shift = file_.packing.cell->nearest_image(b.position[uj] - b.position[ui]);
+    const bool is_beam = kind == LinkKind::beam;
     const std::string pair = std::to_string(b.id[ui]) + " " + std::to_string(b.id[uj]);
     if (i == j && shift == ImageShift<D>{})
-      return fault(line, "contact", pair, "a grain cannot touch itself except through an image (S1 S2)");
+      return fault(line, word, pair,
+                   std::string(is_beam ? "a beam cannot join a grain to itself" : "a grain cannot touch itself") +
+                       " except through an image (S1 S2)");
     const double distance = norm(branch(file_.packing, ui, uj, shift));
     if (!(distance > 0) || !std::isfinite(distance))
-      return fault(line, "contact", pair, "the two centres coincide (or are out of range): no normal direction");
+      return fault(line, word, pair, "the two centres coincide (or are out of range): no normal direction");
 
     ImageShift<D> back;
     for (std::size_t k = 0; k < D; ++k) back[k] = -shift[k];
     const bool forward = i != j ? i < j : shift > back;
-    const auto key = forward ? Key{i, j, shift} : Key{j, i, back};
+    const auto key = forward ? Key{i, j, shift, is_beam} : Key{j, i, back, is_beam};
     const auto [seen, fresh] = lines_.try_emplace(key, line, kind);
     if (!fresh)
-      return fault(line, "contact", pair,
+      return fault(line, word, pair,
                    (seen->second.second == kind ? "repeats" : "contradicts") + std::string(" line ") +
                        std::to_string(seen->second.first) + ": one line for each pair and image");
     Link<D> link;
     link.i = i, link.j = j, link.shift = shift, link.kind = kind;
-    link.gap = distance - b.radius[ui] - b.radius[uj];
+    if (is_beam) {
+      link.beam = static_cast<std::int32_t>(file_.packing.beams.size());
+      file_.packing.beams.push_back(beam_at_rest(distance));
+    } else {
+      link.gap = distance - b.radius[ui] - b.radius[uj];
+    }
     file_.packing.links.push_back(link);
   }
 
@@ -233,13 +266,14 @@ class NetworkParser {
   struct Key {
     std::int32_t i, j;
     ImageShift<D> shift;
+    bool beam;
     bool operator==(const Key&) const = default;
   };
   struct KeyHash {
     std::size_t operator()(const Key& k) const {
       std::uint64_t h = static_cast<std::uint32_t>(k.i);
       const auto mix = [&h](std::uint64_t x) { h = (h ^ x) * 0x9E3779B97F4A7C15ull, h ^= h >> 29; };
-      mix(static_cast<std::uint32_t>(k.j));
+      mix(static_cast<std::uint32_t>(k.j)), mix(k.beam);
       for (int s : k.shift) mix(static_cast<std::uint32_t>(s));
       return h;
     }
@@ -252,7 +286,7 @@ class NetworkParser {
   bool has_cell_ = false;
   std::unordered_map<std::int64_t, std::int32_t> index_;  // of an ID
   std::vector<int> line_of_grain_;
-  std::vector<std::pair<int, Fields>> contacts_;  // lines of contacts, resolved once every grain is known
+  std::vector<std::pair<int, Fields>> links_;  // lines of contacts and beams, resolved once every grain is known
   std::unordered_map<Key, std::pair<int, LinkKind>, KeyHash> lines_;
 };
 
@@ -280,6 +314,21 @@ int network_dimension(const std::string& path) {
   return 2;
 }
 
+namespace {
+
+template <int D>
+void refuse_other_beam(const Packing<D>& packing, const Link<D>& link) {
+  const double length = norm(ends(packing, link).branch);
+  const bool loaded = link.normal_force != 0 || link.tangential_force != Tangential<D>{} || link.moment != Spin<D>{};
+  if (loaded || packing.beams[static_cast<std::size_t>(link.beam)] != beam_at_rest(length))
+    throw InputError("network", 0, "beam",
+                     std::to_string(packing.bodies.id[static_cast<std::size_t>(link.i)]) + " " +
+                         std::to_string(packing.bodies.id[static_cast<std::size_t>(link.j)]),
+                     "a .net file has no column for the load of a beam or a stiffness of its own");
+}
+
+}  // namespace
+
 template <int D>
 std::string network_text(const Packing<D>& packing) {
   std::string text;
@@ -300,8 +349,11 @@ std::string network_text(const Packing<D>& packing) {
     text += '\n';
   }
   for (const Link<D>& link : packing.links) {
-    text += "contact " + std::to_string(b.id[static_cast<std::size_t>(link.i)]) + ' ' +
-            std::to_string(b.id[static_cast<std::size_t>(link.j)]) + ' ' + std::string(letters(link.kind));
+    const bool is_beam = link.kind == LinkKind::beam;
+    if (is_beam) refuse_other_beam(packing, link);
+    text += std::string(is_beam ? "beam " : "contact ") + std::to_string(b.id[static_cast<std::size_t>(link.i)]) + ' ' +
+            std::to_string(b.id[static_cast<std::size_t>(link.j)]);
+    if (!is_beam) text += ' ' + std::string(letters(link.kind));
     if (packing.cell)
       for (int s : link.shift) text += ' ' + std::to_string(s);
     text += '\n';

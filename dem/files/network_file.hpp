@@ -3,11 +3,13 @@
 //   cell L1 L2 [L3]               periodic cell; optional, at most once
 //   grain ID X Y [Z] R            ID any distinct integer; the centre may lie outside the cell
 //   contact I J TYPE [S1 S2 [S3]] TYPE c closed, s sliding, r rolling yielded, sr both, d distant; S the image shift of
-//   J;
-//                                 without S in a cell the nearest image of J is meant
+//                                 J; without S in a cell the nearest image of J is meant
+//   beam I J [S1 S2]              elastic beam between the centres, in the plane; without load as it stands, with the
+//                                 stiffnesses of beam_at_rest() (dem/state/beam.hpp)
 //
-// Lines may come in any order. Contact lines are taken as they stand, touching or not; several images of one pair are
-// allowed, the same image twice is a fault. With no contact line, contacts are found by touching.
+// Lines may come in any order. Contact and beam lines are taken as they stand, touching or not; several images of one
+// pair are allowed, the same image twice is a fault (but a beam and a contact may join the same pair). With no contact
+// line, contacts are found by touching, between grains that no beam joins.
 #pragma once
 #include <optional>
 #include <string>
@@ -20,7 +22,7 @@ namespace isostat {
 template <int D>
 struct NetworkFile {
   Packing<D> packing;        // lengths as in the file; mass of the largest grain 1 and equal densities; forces zero
-  bool links_given = false;  // the file has contact lines; false: links were found by touching
+  bool links_given = false;  // the file has contact lines; false: contacts were found by touching
 };
 
 // Throws InputError listing the faults with file and line (the first kMaxFaults of them).
@@ -35,8 +37,9 @@ inline constexpr std::size_t kMaxFaults = 1000;
 // Dimension of a network file: number of coordinates in its first grain line; 2 if it has none.
 int network_dimension(const std::string& path);
 
-// Grains and links with 17 significant digits. write_network writes to a temporary name and renames it; throws
-// InputError if the path cannot be written.
+// Grains and links with 17 significant digits. write_network writes to a temporary name and renames it. Both throw
+// InputError if a beam is not that of a network (no column says its stiffness or load), write_network also if the path
+// cannot be written.
 template <int D>
 std::string network_text(const Packing<D>& packing);
 template <int D>

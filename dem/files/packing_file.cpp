@@ -12,6 +12,7 @@
 #include "dem/files/network_file.hpp"
 #include "dem/files/state_file.hpp"
 #include "dem/input_error.hpp"
+#include "dem/state/beam.hpp"
 #include "dem/state/link_ends.hpp"
 #include "dem/state/state_check.hpp"
 #include "dem/state/touching.hpp"
@@ -68,7 +69,7 @@ void check_cell(const Packing<D>& packing, const std::string& path) {
 
 template <int D>
 void find_touching(Packing<D>& packing, const PackingReading& reading) {
-  packing.links = touching_links(packing, reading.gap_tolerance.value_or(default_gap_tolerance(packing.bodies)));
+  find_contacts(packing, reading.gap_tolerance.value_or(default_gap_tolerance(packing.bodies)));
 }
 
 template <int D>
@@ -80,14 +81,17 @@ void read_network_into(PackingFile& file, const std::string& path, const Packing
   if (reading.box && isolated) {
     check_cell(network.packing, path);
     // The file was read as isolated: with its cell the nearest images are meant, and more grains may touch.
-    if (!file.links_given) find_touching(network.packing, reading);
     for (Link<D>& link : network.packing.links) {
-      if (!file.links_given) break;
       const auto i = static_cast<std::size_t>(link.i), j = static_cast<std::size_t>(link.j);
       const Bodies<D>& b = network.packing.bodies;
       link.shift = network.packing.cell->nearest_image(b.position[j] - b.position[i]);
-      link.gap = norm(branch(network.packing, i, j, link.shift)) - b.radius[i] - b.radius[j];
+      const double distance = norm(branch(network.packing, i, j, link.shift));
+      if (link.kind == LinkKind::beam)
+        network.packing.beams[static_cast<std::size_t>(link.beam)] = beam_at_rest(distance);
+      else
+        link.gap = distance - b.radius[i] - b.radius[j];
     }
+    if (!file.links_given) find_touching(network.packing, reading);
   }
   set_packing(file, std::move(network.packing), path);
 }
@@ -177,7 +181,7 @@ PackingFormat sniff_packing_format(const std::string& path) {
     const std::size_t first = line.find_first_not_of(" \t\r\v\f");
     if (first == std::string::npos || line[first] == '#') continue;
     const std::string word = line.substr(first, line.find_first_of(" \t\r,", first) - first);
-    if (word == "cell" || word == "grain" || word == "contact") return PackingFormat::network;
+    if (word == "cell" || word == "grain" || word == "contact" || word == "beam") return PackingFormat::network;
     if (word == "ITEM:") return PackingFormat::dump;
     if (line.find(',') != std::string::npos) return PackingFormat::csv;
     break;

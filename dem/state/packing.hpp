@@ -78,6 +78,7 @@ struct Beam {
   double rest_angle_i = 0, rest_angle_j = 0;  // of the ends against the chord, without load
   double stiffness = 0;                       // E [F0/a]: force per elongation
   double bending = 0;                         // E I [F0 a^2]
+  friend bool operator==(const Beam&, const Beam&) = default;
 };
 
 template <int D>

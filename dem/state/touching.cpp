@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <tuple>
 
 #include "dem/state/link_ends.hpp"
@@ -88,6 +89,21 @@ std::vector<Link<D>> touching_links(const Packing<D>& packing, double gap_tolera
   return links;
 }
 
+template <int D>
+void find_contacts(Packing<D>& packing, double gap_tolerance) {
+  std::erase_if(packing.links, [](const Link<D>& l) { return l.kind != LinkKind::beam; });
+  std::set<std::tuple<std::int32_t, std::int32_t, ImageShift<D>>> joined;
+  for (const Link<D>& l : packing.links) {
+    ImageShift<D> back{};
+    for (std::size_t k = 0; k < D; ++k) back[k] = -l.shift[k];
+    joined.insert({l.i, l.j, l.shift}), joined.insert({l.j, l.i, back});
+  }
+  for (const Link<D>& l : touching_links(packing, gap_tolerance))
+    if (!joined.contains({l.i, l.j, l.shift})) packing.links.push_back(l);
+}
+
+template void find_contacts(Packing<2>&, double);
+template void find_contacts(Packing<3>&, double);
 template std::vector<Link<2>> touching_links(const Packing<2>&, double);
 template std::vector<Link<3>> touching_links(const Packing<3>&, double);
 template <int D>

@@ -38,6 +38,21 @@ TEST_F(BadInput, OutputThatCannotBeWritten) {
   }
 }
 
+// What a format cannot hold is refused, not lost.
+TEST_F(BadInput, BeamsWhereTheyHaveNoPlace) {
+  const std::string net = "convert " ISOSTAT_DATA "/clusters/beam_bars.net -o ";
+  for (const char* name : {"x.h5", "x.csv", "x.dump", "x.xyz"}) {
+    const Outcome o = run(net + in_folder(name));
+    EXPECT_EQ(o.code, 2) << name;
+    EXPECT_THAT(o.err, HasSubstr("beams are kept by .net files only"));
+    EXPECT_FALSE(std::filesystem::exists(in_folder(name)));
+  }
+  ASSERT_EQ(run(net + in_folder("x.vtp")).code, 0);
+  ASSERT_EQ(run(net + in_folder("x.net")).code, 0);
+  ASSERT_EQ(run("convert " + in_folder("x.net") + " -o " + in_folder("y.net")).code, 0);
+  EXPECT_EQ(content(in_folder("x.net")), content(in_folder("y.net")));
+}
+
 TEST_F(BadInput, DamagedStates) {
   const std::string whole = in_folder("state.h5");
   ASSERT_EQ(run("convert " ISOSTAT_DATA "/clusters/periodic_square3x3.net -o " + whole).code, 0);

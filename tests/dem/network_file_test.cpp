@@ -49,6 +49,43 @@ TEST(NetworkFile, SeveralImagesAndOwnImage) {
   EXPECT_EQ(file.packing.links.size(), 4u);
 }
 
+TEST(NetworkFile, Beams) {
+  const std::string text =
+      "cell 4 4\ngrain 1 0 0 .5\ngrain 2 1 0 .5\ngrain 3 3 0 .5\nbeam 1 2\nbeam 3 1\nbeam 1 1 0 1\n";
+  const auto file = parse_network<2>(text, "a.net");
+  const Packing<2>& p = file.packing;
+  EXPECT_FALSE(file.links_given);  // of contacts none is given: 1 and 2, 1 and 3 touch, but beams join them
+  ASSERT_EQ(p.links.size(), 3u);
+  ASSERT_EQ(p.beams.size(), 3u);
+  EXPECT_EQ(p.links[1].kind, LinkKind::beam);
+  EXPECT_EQ(p.links[1].shift, (ImageShift<2>{1, 0}));  // the nearest image
+  EXPECT_EQ(p.links[1].beam, 1);
+  EXPECT_EQ(p.links[1].gap, 0);
+  EXPECT_EQ(p.beams[1], (Beam{1, 0, 0, 1e5, 10}));
+  EXPECT_EQ(p.beams[2].rest_length, 4);
+  EXPECT_EQ(network_text(parse_network<2>(network_text(p), "b.net").packing), network_text(p));
+
+  // Beside a contact of the same pair, and with contact lines nothing is looked for.
+  const auto both = parse_network<2>(text + "contact 1 2 s\n", "a.net");
+  EXPECT_TRUE(both.links_given);
+  EXPECT_EQ(both.packing.links.size(), 4u);
+}
+
+TEST(NetworkFile, AContactThatABeamDoesNotJoinIsFound) {
+  const auto file = parse_network<2>("grain 1 0 0 .5\ngrain 2 1 0 .5\ngrain 3 2 0 .5\nbeam 1 3\n", "a.net");
+  ASSERT_EQ(file.packing.links.size(), 3u);
+  EXPECT_EQ(file.packing.links[0].kind, LinkKind::beam);
+  EXPECT_EQ(file.packing.links[2].kind, LinkKind::closed);
+}
+
+TEST(NetworkFile, ALoadedBeamIsNotWritten) {
+  Packing<2> p = parse_network<2>("grain 1 0 0 .5\ngrain 2 1 0 .5\nbeam 1 2\n", "a.net").packing;
+  p.links[0].moment = 1;
+  EXPECT_THROW(network_text(p), InputError);
+  p.links[0].moment = 0, p.beams[0].stiffness = 7;
+  EXPECT_THROW(network_text(p), InputError);
+}
+
 std::string faults_of(const char* text) {
   try {
     parse_network<2>(text, "bad.net");
@@ -56,6 +93,24 @@ std::string faults_of(const char* text) {
     return e.what();
   }
   return "";
+}
+
+TEST(NetworkFile, FaultsOfBeams) {
+  const std::string faults = faults_of(
+      "cell 9 9\ngrain 1 0 0 .5\ngrain 2 1 0 .5\nbeam 1 1\nbeam 1 3\nbeam 1 2\nbeam 2 1 0 0\nbeam 1 2 c\nbeam 1 2 0 "
+      "x\n");
+  EXPECT_THAT(faults, HasSubstr("bad.net:4: beam = 1 1"));
+  EXPECT_THAT(faults, HasSubstr("a beam cannot join a grain to itself except through an image"));
+  EXPECT_THAT(faults, HasSubstr("bad.net:5: beam.J = 3: no grain line has this ID"));
+  EXPECT_THAT(faults, HasSubstr("repeats line 6"));
+  EXPECT_THAT(faults, HasSubstr("beam I J [S1 S2]"));
+  EXPECT_THAT(faults, HasSubstr("bad.net:9: beam.S2 = x"));
+  try {
+    parse_network<3>("grain 1 0 0 0 .5\ngrain 2 1 0 0 .5\nbeam 1 2\n", "bad.net");
+    ADD_FAILURE() << "a beam in space";
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("this network is in space"));
+  }
 }
 
 TEST(NetworkFile, ListsEveryFaultWithItsLine) {

@@ -82,7 +82,7 @@ void fuzz_packing(std::string_view bytes) {
     require(!error.faults().empty(), "an InputError without a fault");
     return;
   }
-  if (!file.packing_3d) require(!state_fault(file.state), "a packing that cannot be kept");
+  if (!file.packing_3d) require(!packing_fault(file.state.packing), "a packing with a fault");
 }
 
 }  // namespace isostat

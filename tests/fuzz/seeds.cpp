@@ -23,9 +23,10 @@ std::vector<std::string> files(const std::string& folder, const std::string& ext
   return all;
 }
 
-std::vector<Packing<2>> clusters(const std::string& data) {
+std::vector<Packing<2>> clusters(const std::string& data) {  // what any format can hold: no beams
   std::vector<Packing<2>> all;
   for (const std::string& text : network_seeds(data)) all.push_back(parse_network<2>(text, "cluster").packing);
+  std::erase_if(all, [](const Packing<2>& p) { return !p.beams.empty(); });
   return all;
 }
 
