@@ -20,7 +20,8 @@ constexpr Color blend(const Color& a, const Color& b, double t) {
 inline constexpr Color kBlack = rgb(0x000000), kWhite = rgb(0xffffff), kInk = rgb(0x262626), kFaint = rgb(0x9a9a9a);
 
 // Links (Fig. 2): compressive red, tensile green, distant (or below the threshold) blue.
-inline constexpr Color kCompressive = rgb(0xd7191c), kTensile = rgb(0x12964a), kDistant = rgb(0x2b6fdb);
+inline constexpr Color kCompressive = rgb(0xd7191c), kTensile = rgb(0x12964a), kDistant = rgb(0x2b6fdb),
+                       kBeam = rgb(0x8e3b9e);
 
 // Disks: plain, with thin outline; rattlers grey (Fig. 2); only touched by links below the threshold, light grey (Fig.
 // 11).

@@ -14,20 +14,26 @@ class GrainsContent final : public PictureContent {
     canvas.end_group();
     canvas.begin_group("links");
     const double width = std::clamp(0.06 * pen.diameter(), 0.2, 2.0);
-    std::vector<DrawnLink> closed, distant;
+    std::vector<DrawnLink> closed, distant, beams;
     for (const Link<2>& link : pen.packing().links)
-      (link.kind == LinkKind::distant ? distant : closed).push_back({&link, width});
+      (is_contact(link.kind)         ? closed
+       : link.kind == LinkKind::beam ? beams
+                                     : distant)
+          .push_back({&link, link.kind == LinkKind::beam ? 2 * width : width});
+    pen.links(canvas, beams, kBeam);
     pen.links(canvas, distant, kDistant);
     pen.links(canvas, closed, kInk);
     canvas.end_group();
   }
 
   std::vector<LegendItem> legend(const PicturePen& pen, double em) const override {
-    bool closed = false, distant = false;
-    for (const Link<2>& link : pen.packing().links) (link.kind == LinkKind::distant ? distant : closed) = true;
+    bool closed = false, distant = false, beams = false;
+    for (const Link<2>& link : pen.packing().links)
+      (is_contact(link.kind) ? closed : link.kind == LinkKind::beam ? beams : distant) = true;
     std::vector<LegendItem> items;
-    if (closed && distant) items.push_back(line_item(em, kInk, plain("contact")));
+    if (closed && (distant || beams)) items.push_back(line_item(em, kInk, plain("contact")));
     if (distant) items.push_back(line_item(em, kDistant, plain("distant")));
+    if (beams) items.push_back(line_item(em, kBeam, plain("beam")));
     return items;
   }
 };

@@ -72,7 +72,7 @@ SettlingNetwork::SettlingNetwork(const State<Disks>& state, const FinishingReque
                          state.cell_motion.reference_length[a]);
     }
   for (const Link<2>& l : state.packing.links)
-    if (l.kind != LinkKind::distant) {
+    if (is_contact(l.kind)) {
       const Spring s = canonical({rank[at(l.i)], rank[at(l.j)], l.shift, l.tangential_force, l.moment});
       Pair p;
       p.i = s.i, p.j = s.j, p.shift = s.shift, p.tangential = s.tangential, p.moment = s.moment;

@@ -34,7 +34,7 @@ void remove_rattlers(const Packing<D>& packing, Coordination& c, int least, bool
   std::vector<std::int32_t> leaving;
   c.backbone_degree = c.degree;
   for (std::size_t k = 0; k < c.degree.size(); ++k)
-    if (c.degree[k] < least) c.rattler[k] = 1, leaving.push_back(static_cast<std::int32_t>(k));
+    if (c.degree[k] < least && !c.held[k]) c.rattler[k] = 1, leaving.push_back(static_cast<std::int32_t>(k));
   std::vector<char> cut(packing.links.size(), 0);
   while (!leaving.empty()) {
     const std::int32_t k = leaving.back();
@@ -46,7 +46,7 @@ void remove_rattlers(const Packing<D>& packing, Coordination& c, int least, bool
       cut[l] = 1;
       for (const std::int32_t end : {packing.links[l].i, packing.links[l].j}) {
         --c.backbone_degree[idx(end)];
-        if (recursive && !c.rattler[idx(end)] && c.backbone_degree[idx(end)] < least)
+        if (recursive && !c.rattler[idx(end)] && !c.held[idx(end)] && c.backbone_degree[idx(end)] < least)
           c.rattler[idx(end)] = 1, leaving.push_back(end);
       }
     }
@@ -62,14 +62,20 @@ Coordination coordination(const Packing<D>& packing, const ForceReading& reading
   c.counted.resize(packing.links.size());
   c.degree.assign(packing.bodies.size(), 0);
   c.rattler.assign(packing.bodies.size(), 0);
+  c.held.assign(packing.bodies.size(), 0);
   for (std::size_t l = 0; l < packing.links.size(); ++l) {
     const Link<D>& link = packing.links[l];
-    c.counted[l] = !loaded_only || (link.kind != LinkKind::distant && force_magnitude(link) > reading.threshold);
-    if (!c.counted[l]) {
-      c.unloaded += link.kind != LinkKind::distant;
+    if (link.kind == LinkKind::beam) {
+      ++c.beams;
+      c.held[idx(link.i)] = c.held[idx(link.j)] = 1;
       continue;
     }
-    ++(link.kind == LinkKind::distant ? c.distant : c.contacts);
+    c.counted[l] = !loaded_only || (is_contact(link.kind) && force_magnitude(link) > reading.threshold);
+    if (!c.counted[l]) {
+      c.unloaded += is_contact(link.kind);
+      continue;
+    }
+    ++(is_contact(link.kind) ? c.contacts : c.distant);
     ++c.degree[idx(link.i)], ++c.degree[idx(link.j)];
   }
   if (loaded_only)

@@ -51,6 +51,7 @@ nlohmann::ordered_json counts_of(const Packing<D>& packing, const ForceReading& 
   json["contacts"] = c.contacts;
   json["distant"] = c.distant;
   json["unloaded_contacts"] = c.unloaded;
+  if (c.beams > 0) json["beams"] = c.beams;
   json["rattlers"] = c.rattlers;
   const double phi = solid_fraction(packing);
   json["solid_fraction"] = phi;
@@ -60,7 +61,7 @@ nlohmann::ordered_json counts_of(const Packing<D>& packing, const ForceReading& 
   json["x"] = proportions(c);
   auto one_coordinated = nlohmann::ordered_json::array();
   for (std::size_t k = 0; k < c.degree.size(); ++k)
-    if (!c.rattler[k] && c.backbone_degree[k] == 1) one_coordinated.push_back(packing.bodies.id[k]);
+    if (!c.rattler[k] && !c.held[k] && c.backbone_degree[k] == 1) one_coordinated.push_back(packing.bodies.id[k]);
   json["one_coordinated"] = std::move(one_coordinated);
   return json;
 }

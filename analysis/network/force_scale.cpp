@@ -24,7 +24,7 @@ ForceReading read_foreign(const Packing<D>& packing) {
   double sum = 0, most_tensile = 0;
   for (const Link<D>& link : packing.links) {
     sum += force_magnitude(link);
-    most_tensile = std::min(most_tensile, link.normal_force);
+    if (link.kind != LinkKind::beam) most_tensile = std::min(most_tensile, link.normal_force);
   }
   if (!(sum > 0)) return reading;
   reading.known = true;

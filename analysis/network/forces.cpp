@@ -1,5 +1,5 @@
 // Section "forces": populations of repulsive, attractive and unstressed interactions (Gilabert 2007, Table VI) and the
-// force distributions of Figs. 9, 10, 14, 15, 17.
+// force distributions of Figs. 9, 10, 14, 15, 17. Of contacts and distant pairs: beams are left out.
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -50,11 +50,12 @@ nlohmann::ordered_json histograms(const Packing<2>& packing, const ForceReading&
   std::vector<double> normal, tangential, relative, magnitude, angle;
   double repulsive_sum = 0, repulsive = 0;
   for (const Link<2>& link : packing.links) {
+    if (link.kind == LinkKind::beam) continue;
     const double total = force_magnitude(link);
     normal.push_back(link.normal_force);
     magnitude.push_back(total);
     if (link.normal_force > reading.threshold) repulsive_sum += link.normal_force, repulsive += 1;
-    if (link.kind == LinkKind::distant) continue;
+    if (!is_contact(link.kind)) continue;
     tangential.push_back(link.tangential_force);
     relative.push_back(link.normal_force);
     if (total > reading.threshold) angle.push_back(angle_to_normal(link));
@@ -83,13 +84,14 @@ nlohmann::ordered_json forces_section(const AnalysisInput& input, const Analysis
   double unstressed = 0, above_tenth = 0;
   std::vector<double> magnitudes;
   for (const Link<2>& link : packing.links) {
+    if (link.kind == LinkKind::beam) continue;
     const double n = link.normal_force;
     (n > reading.threshold ? plus : n < -reading.threshold ? minus : zero).add(std::abs(n));
     unstressed += !(force_magnitude(link) > reading.threshold);
     above_tenth += std::abs(n) > 0.1 * reading.scale;
     magnitudes.push_back(std::abs(n));
   }
-  const auto grains = static_cast<double>(packing.bodies.size()), links = static_cast<double>(packing.links.size());
+  const auto grains = static_cast<double>(packing.bodies.size()), links = static_cast<double>(magnitudes.size());
   const PowerLaw small = fit_power_law(magnitudes, 1e-3 * reading.scale, 1e-2 * reading.scale);
   nlohmann::ordered_json json;
   json["z_plus"] = 2 * plus.count / grains;
@@ -112,6 +114,7 @@ std::vector<Table> forces_tables(const AnalysisInput& input, const AnalysisOptio
   const Packing<2>& packing = input.packing();
   Table table{"links", {"i", "j", "distant", "h", "N", "T", "M", "F", "angle"}, {}};
   for (const Link<2>& link : packing.links) {
+    if (link.kind == LinkKind::beam) continue;
     const auto id = [&](std::int32_t k) { return static_cast<double>(packing.bodies.id[idx(k)]); };
     table.rows.push_back({id(link.i), id(link.j), static_cast<double>(link.kind == LinkKind::distant), link.gap,
                           link.normal_force, link.tangential_force, link.moment, force_magnitude(link),

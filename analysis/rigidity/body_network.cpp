@@ -1,24 +1,28 @@
 #include "analysis/rigidity/body_network.hpp"
 
+#include "geometry/base/index.hpp"
+
 #include <algorithm>
 
 namespace isostat {
 
 namespace {
 
-struct RowTotal {
-  std::size_t rows = 0, blocks = 0;
+// Links that join two bodies, or a body and another image of it; and how much room their rows take.
+struct OuterLinks {
+  std::vector<std::int32_t> link;
+  std::size_t rows = 0, blocks = 0;  // at most
 };
-// Room for the rows, an upper bound in the blocks of a body and its own image.
-RowTotal count_rows(const Packing<2>& packing, NetworkLaw law, bool cell_free, const RigidBodies& bodies) {
-  RowTotal total;
-  for (const Link<2>& link : packing.links) {
-    const bool through_image = bodies.image(link) != ImageShift<2>{};
-    if (bodies.same(link) && !through_image) continue;
-    const auto rows = static_cast<std::size_t>(rows_of(link.kind, law).count());
-    total.rows += rows, total.blocks += (cell_free && through_image ? 3 : 2) * rows;
+OuterLinks outer_links(const Packing<2>& packing, NetworkLaw law, bool cell_free, const RigidBodies& bodies) {
+  OuterLinks outer;
+  for (std::size_t l = 0; l < packing.links.size(); ++l) {
+    const Link<2>& link = packing.links[l];
+    if (bodies.same(link) && bodies.image(link) == ImageShift<2>{}) continue;
+    outer.link.push_back(static_cast<std::int32_t>(l));
+    const auto rows = idx(rows_of(link.kind, law).count());
+    outer.rows += rows, outer.blocks += (cell_free && bodies.image(link) != ImageShift<2>{} ? 3 : 2) * rows;
   }
-  return total;
+  return outer;
 }
 
 template <class F>
@@ -32,28 +36,28 @@ template <class F>
 Rows<F> body_rows(const Packing<2>& packing, NetworkLaw law, bool cell_free, const RigidBodies& bodies,
                   const FieldGeometry<F>& geometry) {
   Rows<F> rows;
-  const RowTotal total = count_rows(packing, law, cell_free, bodies);
-  rows.rows.reserve(total.rows), rows.blocks.reserve(total.blocks);
+  const OuterLinks outer = outer_links(packing, law, cell_free, bodies);
+  rows.rows.reserve(outer.rows), rows.blocks.reserve(outer.blocks);
   const bool spins = dof_layout(packing, law, cell_free).per_body == 3;
-  for (std::size_t l = 0; l < packing.links.size(); ++l) {
-    const Link<2>& link = packing.links[l];
-    const auto i = static_cast<std::size_t>(link.i), j = static_cast<std::size_t>(link.j);
+  for (const std::int32_t l : outer.link) {
+    const Link<2>& link = packing.links[idx(l)];
+    const auto i = idx(link.i), j = idx(link.j);
     const ImageShift<2> image = bodies.image(link);
     const bool own = bodies.same(link), through_image = image != ImageShift<2>{};
-    if (own && !through_image) continue;
 
     const LinkRows kept = rows_of(link.kind, law);
+    const std::array<F, 2> radii = geometry.radii(link);
     const FieldVec<F> r = geometry.branch(link), back = geometry.offset(image);
     const FieldVec<F> x_i = geometry.placed(i, bodies.placement[i]), x_j = geometry.placed(j, bodies.placement[j]);
     for (const RowKind kind : kRowKinds) {
       if (!kept[kind] || (own && kind == RowKind::rolling)) continue;  // a body and its image turn alike
-      const LinkLoad<F> load = rational_load(kind, r, geometry.radius[i], geometry.radius[j]);
+      const LinkLoad<F> load = rational_load(kind, r, radii[0], radii[1]);
       const FieldVec<F> force = {load.fx, load.fy};
       // Moments about the origins of the two frames, from those about the centres.
       RowBlock<F> on_i{bodies.body_of[i], {-force[0], -force[1], F{}}},
           on_j{bodies.body_of[j], {force[0], force[1], F{}}};
       if (spins) on_i.at[2] = load.moment_i - cross(x_i, force), on_j.at[2] = load.moment_j + cross(x_j, force);
-      rows.begin_row(static_cast<std::int32_t>(l), kind);
+      rows.begin_row(l, kind);
       if (own) {
         for (std::size_t d = 0; d < 3; ++d) on_i.at[d] = on_i.at[d] + on_j.at[d];
         rows.blocks.push_back(on_i);
@@ -72,7 +76,7 @@ namespace {
 // Rank of up to three vectors of `dofs` entries, by elimination.
 template <class F>
 bool independent(std::array<std::array<F, 3>, 3> v, int count, int dofs) {
-  const auto n = static_cast<std::size_t>(dofs), m = static_cast<std::size_t>(count);
+  const auto n = idx(dofs), m = idx(count);
   if (m > n) return false;
   for (std::size_t k = 0; k < m; ++k) {
     std::size_t c = 0;
@@ -90,20 +94,18 @@ bool independent(std::array<std::array<F, 3>, 3> v, int count, int dofs) {
 
 template <class F>
 PrunedNetwork prune(const Rows<F>& rows, std::int32_t body_count, int dofs) {
-  const auto n = static_cast<std::size_t>(body_count);
+  const auto n = idx(body_count);
   std::vector<std::int32_t> degree(n, 0);
   for (const auto& block : rows.blocks)
-    if (block.body < body_count) ++degree[static_cast<std::size_t>(block.body)];
+    if (block.body < body_count) ++degree[idx(block.body)];
   std::vector<std::int32_t> start(n + 1, 0);
   for (std::size_t b = 0; b < n; ++b) start[b + 1] = start[b] + degree[b];
-  std::vector<std::int32_t> incident(static_cast<std::size_t>(start[n]));
+  std::vector<std::int32_t> incident(idx(start[n]));
   {
     std::vector<std::int32_t> next(start.begin(), start.end() - 1);
     for (std::size_t r = 0; r < rows.size(); ++r)
       for (const auto& block : rows.of(r))
-        if (block.body < body_count)
-          incident[static_cast<std::size_t>(next[static_cast<std::size_t>(block.body)]++)] =
-              static_cast<std::int32_t>(r);
+        if (block.body < body_count) incident[idx(next[idx(block.body)]++)] = static_cast<std::int32_t>(r);
   }
 
   PrunedNetwork result;
@@ -113,28 +115,28 @@ PrunedNetwork prune(const Rows<F>& rows, std::int32_t body_count, int dofs) {
     if (degree[b] > 0 && degree[b] <= dofs) queue.push_back(static_cast<std::int32_t>(b));
   while (!queue.empty()) {
     const std::int32_t body = queue.back();
-    const auto b = static_cast<std::size_t>(body);
+    const auto b = idx(body);
     queue.pop_back();
     if (body_gone[b] || degree[b] == 0 || degree[b] > dofs) continue;
     std::array<std::array<F, 3>, 3> entries{};
     std::array<std::int32_t, 3> mine{};
     int count = 0;
     for (std::int32_t e = start[b]; e < start[b + 1]; ++e) {
-      const std::int32_t r = incident[static_cast<std::size_t>(e)];
-      if (row_gone[static_cast<std::size_t>(r)]) continue;
-      mine[static_cast<std::size_t>(count)] = r;
-      entries[static_cast<std::size_t>(count++)] = rows.at(static_cast<std::size_t>(r), body);
+      const std::int32_t r = incident[idx(e)];
+      if (row_gone[idx(r)]) continue;
+      mine[idx(count)] = r;
+      entries[idx(count++)] = rows.at(idx(r), body);
     }
     if (!independent(entries, count, dofs)) continue;
     body_gone[b] = 1;
     result.pruned.push_back({body, count, mine});
     result.pruned_rank += count;
     for (int k = 0; k < count; ++k) {
-      const auto r = static_cast<std::size_t>(mine[static_cast<std::size_t>(k)]);
+      const auto r = idx(mine[idx(k)]);
       row_gone[r] = 1;
       for (const auto& block : rows.of(r)) {
         if (block.body == body || block.body >= body_count) continue;
-        if (--degree[static_cast<std::size_t>(block.body)] <= dofs) queue.push_back(block.body);
+        if (--degree[idx(block.body)] <= dofs) queue.push_back(block.body);
       }
     }
   }

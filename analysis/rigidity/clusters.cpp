@@ -5,8 +5,10 @@
 #include <numeric>
 
 #include "analysis/rigidity/exact_rank.hpp"
+#include "analysis/rigidity/part_of_packing.hpp"
 #include "analysis/rigidity/reduced_problem.hpp"
 #include "dem/input_error.hpp"
+#include "geometry/base/index.hpp"
 
 namespace isostat {
 namespace {
@@ -14,20 +16,18 @@ namespace {
 using F = WideField;
 constexpr std::uint64_t kMotionSeed = 0xC1057E5;
 
-std::size_t u(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 // By body: Vx, Vy at the origin of its frame, W; the strain last.
 using Motion = std::vector<std::array<F, 3>>;
 
 // The rows of a pruned body, given everything else, determine its motion up to free components: those are random.
 std::array<F, 3> pruned_motion(const ReducedProblem<F>& problem, const PrunedBody& pruned, const Motion& motion) {
-  const auto dofs = u(problem.per_body), count = u(pruned.count);
+  const auto dofs = idx(problem.per_body), count = idx(pruned.count);
   std::array<std::array<F, 4>, 3> a{};  // rows of the body, right-hand side last
   for (std::size_t k = 0; k < count; ++k)
-    for (const RowBlock<F>& block : problem.rows.of(u(pruned.rows[k])))
+    for (const RowBlock<F>& block : problem.rows.of(idx(pruned.rows[k])))
       for (std::size_t d = 0; d < 3; ++d) {
         if (block.body != pruned.body)
-          a[k][3] = a[k][3] - block.at[d] * motion[u(block.body)][d];
+          a[k][3] = a[k][3] - block.at[d] * motion[idx(block.body)][d];
         else if (d < dofs)
           a[k][d] = block.at[d];
       }
@@ -49,10 +49,10 @@ std::array<F, 3> pruned_motion(const ReducedProblem<F>& problem, const PrunedBod
   }
   std::array<F, 3> x{};
   for (std::size_t d = 0; d < dofs; ++d)
-    if (pivot_row[d] < 0) x[d] = F::random(kMotionSeed + 1, u(pruned.body) * 3 + d);
+    if (pivot_row[d] < 0) x[d] = F::random(kMotionSeed + 1, idx(pruned.body) * 3 + d);
   for (std::size_t d = 0; d < dofs; ++d) {
     if (pivot_row[d] < 0) continue;
-    const auto& row = a[u(pivot_row[d])];
+    const auto& row = a[idx(pivot_row[d])];
     x[d] = row[3];
     for (std::size_t c = 0; c < dofs; ++c)
       if (pivot_row[c] < 0) x[d] = x[d] - row[c] * x[c];
@@ -61,14 +61,14 @@ std::array<F, 3> pruned_motion(const ReducedProblem<F>& problem, const PrunedBod
 }
 
 Motion random_motion(const ReducedProblem<F>& problem) {
-  Motion motion(u(problem.bodies.count) + 1);
+  Motion motion(idx(problem.bodies.count) + 1);
   for (std::uint64_t attempt = 0;; ++attempt) {
     try {
       const ModularLdlt<F> ldlt(problem.tree, problem.dofs, problem.node_rows(problem.rows), 991 + attempt, true);
       const std::vector<F> x = ldlt.random_null_vector(kMotionSeed);
       for (std::size_t n = 0; n < problem.body_of_node.size(); ++n) {
-        const auto at = u(ldlt.offset(static_cast<std::int32_t>(n)));
-        for (std::size_t d = 0; d < u(problem.dofs[n]); ++d) motion[u(problem.body_of_node[n])][d] = x[at + d];
+        const auto at = idx(ldlt.offset(static_cast<std::int32_t>(n)));
+        for (std::size_t d = 0; d < idx(problem.dofs[n]); ++d) motion[idx(problem.body_of_node[n])][d] = x[at + d];
       }
       break;
     } catch (const RandomizationFailed&) {
@@ -76,10 +76,11 @@ Motion random_motion(const ReducedProblem<F>& problem) {
     }
   }
   for (std::int32_t b : problem.network.bodies)  // without rows: free
-    if (problem.node_of_body[u(b)] < 0)
-      for (std::size_t d = 0; d < u(problem.per_body); ++d) motion[u(b)][d] = F::random(kMotionSeed + 2, u(b) * 3 + d);
+    if (problem.node_of_body[idx(b)] < 0)
+      for (std::size_t d = 0; d < idx(problem.per_body); ++d)
+        motion[idx(b)][d] = F::random(kMotionSeed + 2, idx(b) * 3 + d);
   for (auto p = problem.network.pruned.rbegin(); p != problem.network.pruned.rend(); ++p)
-    motion[u(p->body)] = pruned_motion(problem, *p, motion);
+    motion[idx(p->body)] = pruned_motion(problem, *p, motion);
   return motion;
 }
 
@@ -87,10 +88,10 @@ class Sets {
  public:
   explicit Sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
   std::int32_t find(std::int32_t i) {
-    while (parent_[u(i)] != i) i = parent_[u(i)] = parent_[u(parent_[u(i)])];
+    while (parent_[idx(i)] != i) i = parent_[idx(i)] = parent_[idx(parent_[idx(i)])];
     return i;
   }
-  void join(std::int32_t a, std::int32_t b) { parent_[u(find(b))] = find(a); }
+  void join(std::int32_t a, std::int32_t b) { parent_[idx(find(b))] = find(a); }
 
  private:
   std::vector<std::int32_t> parent_;
@@ -103,7 +104,8 @@ std::vector<std::int32_t> label_by_grains(const Packing<2>& packing, const Reduc
   std::vector<char> together(packing.links.size(), 0);
   for (std::size_t l = 0; l < packing.links.size(); ++l) {
     const Link<2>& link = packing.links[l];
-    const auto &a = motion[u(problem.bodies.body_of[u(link.i)])], &b = motion[u(problem.bodies.body_of[u(link.j)])];
+    const auto &a = motion[idx(problem.bodies.body_of[idx(link.i)])],
+               &b = motion[idx(problem.bodies.body_of[idx(link.j)])];
     const FieldVec<F> o = geometry.offset(problem.bodies.image(link));
     // The image of b: V_b - W_b z x o - e o.
     const F vx = b[0] + b[2] * o[1] - motion.back()[0] * o[0], vy = b[1] - b[2] * o[0] - motion.back()[1] * o[1];
@@ -116,19 +118,28 @@ std::vector<std::int32_t> label_by_grains(const Packing<2>& packing, const Reduc
   return label;
 }
 
-// Frictionless: links at one grain that turn at the same rate are one rigid body. Labelled by a representative link.
-std::vector<std::int32_t> label_by_links(const Packing<2>& packing, const Motion& motion,
-                                         const FieldGeometry<F>& geometry) {
+// Frictionless: links at one grain that turn at the same rate are one rigid body (a beam turns with its two grains).
+// Labelled by a representative link.
+std::vector<std::int32_t> label_by_links(const Packing<2>& packing, const ReducedProblem<F>& problem,
+                                         const Motion& motion, const FieldGeometry<F>& geometry) {
+  const auto& strain = motion.back();
+  std::vector<FieldVec<F>> velocity(packing.bodies.size());  // of the centres: V + W z x x of the image in the frame
+  for (std::size_t i = 0; i < velocity.size(); ++i) {
+    const auto& body = motion[idx(problem.bodies.body_of[i])];
+    const FieldVec<F> x = geometry.placed(i, problem.bodies.placement[i]),
+                      o = geometry.offset(problem.bodies.placement[i]);
+    velocity[i] = {body[0] - body[2] * x[1] + strain[0] * o[0], body[1] + body[2] * x[0] + strain[1] * o[1]};
+  }
   Sets sets(packing.links.size());
   std::vector<std::vector<std::pair<std::uint64_t, std::int32_t>>> at_grain(packing.bodies.size());
   for (std::size_t l = 0; l < packing.links.size(); ++l) {
     const Link<2>& link = packing.links[l];
     const FieldVec<F> r = geometry.branch(link), o = geometry.offset(link.shift);
-    const auto &a = motion[u(link.i)], &b = motion[u(link.j)];
-    const F dx = b[0] - motion.back()[0] * o[0] - a[0], dy = b[1] - motion.back()[1] * o[1] - a[1];
+    const auto &a = velocity[idx(link.i)], &b = velocity[idx(link.j)];
+    const F dx = b[0] - strain[0] * o[0] - a[0], dy = b[1] - strain[1] * o[1] - a[1];
     const F turn = (r[0] * dy - r[1] * dx) * (r[0] * r[0] + r[1] * r[1]).inverse();
-    at_grain[u(link.i)].push_back({turn.value, static_cast<std::int32_t>(l)});
-    at_grain[u(link.j)].push_back({turn.value, static_cast<std::int32_t>(l)});
+    at_grain[idx(link.i)].push_back({turn.value, static_cast<std::int32_t>(l)});
+    at_grain[idx(link.j)].push_back({turn.value, static_cast<std::int32_t>(l)});
   }
   for (auto& list : at_grain) {
     std::sort(list.begin(), list.end());
@@ -144,23 +155,7 @@ std::vector<std::int32_t> label_by_links(const Packing<2>& packing, const Motion
 RigidCluster describe(const Packing<2>& packing, NetworkLaw law, bool cell_free,
                       const std::vector<std::int32_t>& links) {
   RigidCluster c;
-  Packing<2> part;
-  part.cell = packing.cell;
-  std::map<std::int32_t, std::int32_t> number;
-  const auto local = [&](std::int32_t grain) {
-    const auto [at, fresh] = number.try_emplace(grain, static_cast<std::int32_t>(part.bodies.position.size()));
-    if (fresh) {
-      part.bodies.id.push_back(packing.bodies.id[u(grain)]);
-      part.bodies.position.push_back(packing.bodies.position[u(grain)]);
-      part.bodies.radius.push_back(packing.bodies.radius[u(grain)]);
-    }
-    return at->second;
-  };
-  for (std::int32_t l : links) {
-    Link<2> link = packing.links[u(l)];
-    link.i = local(link.i), link.j = local(link.j);
-    part.links.push_back(link);
-  }
+  const Packing<2> part = part_of(packing, {}, links);
   c.grains = static_cast<std::int64_t>(part.bodies.size());
   c.links = static_cast<std::int64_t>(links.size());
   c.rows = row_count(part, law);
@@ -169,8 +164,8 @@ RigidCluster describe(const Packing<2>& packing, NetworkLaw law, bool cell_free,
   if (packing.cell) {
     std::vector<std::vector<std::int32_t>> incident(part.bodies.size());
     for (std::size_t l = 0; l < part.links.size(); ++l) {
-      incident[u(part.links[l].i)].push_back(static_cast<std::int32_t>(l));
-      incident[u(part.links[l].j)].push_back(static_cast<std::int32_t>(l));
+      incident[idx(part.links[l].i)].push_back(static_cast<std::int32_t>(l));
+      incident[idx(part.links[l].j)].push_back(static_cast<std::int32_t>(l));
     }
     std::vector<ImageShift<2>> image(part.bodies.size());
     std::vector<char> seen(part.bodies.size(), 0);
@@ -179,16 +174,16 @@ RigidCluster describe(const Packing<2>& packing, NetworkLaw law, bool cell_free,
     while (!stack.empty()) {
       const std::int32_t g = stack.back();
       stack.pop_back();
-      for (std::int32_t l : incident[u(g)]) {
-        const Link<2>& link = part.links[u(l)];
+      for (std::int32_t l : incident[idx(g)]) {
+        const Link<2>& link = part.links[idx(l)];
         const int sign = link.i == g ? 1 : -1;
         const std::int32_t other = link.i == g ? link.j : link.i;
-        const ImageShift<2> at = {image[u(g)][0] + sign * link.shift[0], image[u(g)][1] + sign * link.shift[1]};
-        if (!seen[u(other)]) {
-          seen[u(other)] = 1, image[u(other)] = at;
+        const ImageShift<2> at = {image[idx(g)][0] + sign * link.shift[0], image[idx(g)][1] + sign * link.shift[1]};
+        if (!seen[idx(other)]) {
+          seen[idx(other)] = 1, image[idx(other)] = at;
           stack.push_back(other);
         } else {
-          for (std::size_t k = 0; k < 2; ++k) c.spans[k] = c.spans[k] || at[k] != image[u(other)][k];
+          for (std::size_t k = 0; k < 2; ++k) c.spans[k] = c.spans[k] || at[k] != image[idx(other)][k];
         }
       }
     }
@@ -207,7 +202,7 @@ RigidClusters rigid_clusters(const Packing<2>& packing, NetworkLaw law, bool cel
   const Motion motion = random_motion(problem);
   const FieldGeometry<F> geometry = exact_geometry<F>(packing);
   const std::vector<std::int32_t> label = law == NetworkLaw::frictionless
-                                              ? label_by_links(packing, motion, geometry)
+                                              ? label_by_links(packing, problem, motion, geometry)
                                               : label_by_grains(packing, problem, motion, geometry);
   std::map<std::int32_t, std::vector<std::int32_t>> links_of;
   for (std::size_t l = 0; l < label.size(); ++l)
@@ -232,9 +227,9 @@ RigidClusters rigid_clusters(const Packing<2>& packing, NetworkLaw law, bool cel
     const auto index = static_cast<std::int32_t>(result.clusters.size());
     result.clusters.push_back(e.cluster);
     for (std::int32_t l : *e.links) {
-      result.cluster_of_link[u(l)] = index;
-      for (std::int32_t g : {packing.links[u(l)].i, packing.links[u(l)].j})
-        if (result.cluster_of_grain[u(g)] < 0) result.cluster_of_grain[u(g)] = index;
+      result.cluster_of_link[idx(l)] = index;
+      for (std::int32_t g : {packing.links[idx(l)].i, packing.links[idx(l)].j})
+        if (result.cluster_of_grain[idx(g)] < 0) result.cluster_of_grain[idx(g)] = index;
     }
   }
   return result;

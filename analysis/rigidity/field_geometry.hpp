@@ -6,6 +6,7 @@
 
 #include "analysis/rigidity/prime_field.hpp"
 #include "dem/state/packing.hpp"
+#include "geometry/base/index.hpp"
 
 namespace isostat {
 
@@ -27,8 +28,13 @@ struct FieldGeometry {
     return {position[grain][0] + o[0], position[grain][1] + o[1]};
   }
   FieldVec<F> branch(const Link<2>& link) const {
-    const auto a = position[static_cast<std::size_t>(link.i)], b = placed(static_cast<std::size_t>(link.j), link.shift);
+    const auto a = position[idx(link.i)], b = placed(idx(link.j), link.shift);
     return {b[0] - a[0], b[1] - a[1]};
+  }
+  // The radii that divide a link, up to a common factor: a beam's are equal (dem/state/link_ends.hpp).
+  std::array<F, 2> radii(const Link<2>& link) const {
+    if (link.kind == LinkKind::beam) return {F(1), F(1)};
+    return {radius[idx(link.i)], radius[idx(link.j)]};
   }
 };
 

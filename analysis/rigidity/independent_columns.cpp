@@ -5,6 +5,8 @@
 
 #include "analysis/rigidity/reduced_problem.hpp"
 #include "dem/input_error.hpp"
+#include "dem/state/link_ends.hpp"
+#include "geometry/base/index.hpp"
 
 namespace isostat {
 namespace {
@@ -34,12 +36,13 @@ class PrunedRows {
       result.size = {0, 0, 1 / packing_.bodies.radius[grain]};
       return result;
     }
-    const Link<2>& link = packing_.links[static_cast<std::size_t>(row.link)];
-    const auto i = static_cast<std::size_t>(link.i), j = static_cast<std::size_t>(link.j);
+    const Link<2>& link = packing_.links[idx(row.link)];
+    const auto i = idx(link.i), j = idx(link.j);
     const bool first = problem_.bodies.body_of[i] == body;
     const Vec2 from = placed(i), back = offset(problem_.bodies.image(link));
     const Vec2 branch = packing_.bodies.position[j] + offset(link.shift) - packing_.bodies.position[i];
-    const double share = packing_.bodies.radius[i] / (packing_.bodies.radius[i] + packing_.bodies.radius[j]);
+    const LinkEnds<2> at_ends = ends(packing_, link);
+    const double share = at_ends.radius_i / (at_ends.radius_i + at_ends.radius_j);
     const Vec2 arm = from + share * branch - (first ? Vec2{} : back) - placed(grain);
     const Vec2 n = (1 / norm(branch)) * branch, e = row.kind == RowKind::normal ? n : Vec2{{-n[1], n[0]}};
     result.size = {e[0], e[1], (arm[0] * e[1] - arm[1] * e[0]) / packing_.bodies.radius[grain]};
@@ -91,36 +94,35 @@ std::vector<char> dependent_columns(const Packing<2>& packing, NetworkLaw law, b
   if (cell_free && !packing.cell) throw InputError("command line", 0, "--cell", "free", "the input has no cell");
   const ReducedProblem<F> problem = reduce_problem<F>(packing, law, cell_free);
   const DofLayout layout = dof_layout(packing, law, cell_free);
-  std::vector<char> dependent(static_cast<std::size_t>(layout.size()), 0);
-  std::vector<std::size_t> column_of_body(static_cast<std::size_t>(problem.bodies.count));
+  std::vector<char> dependent(idx(layout.size()), 0);
+  std::vector<std::size_t> column_of_body(idx(problem.bodies.count));
   for (std::size_t i = packing.bodies.size(); i-- > 0;)
-    column_of_body[static_cast<std::size_t>(problem.bodies.body_of[i])] = i * static_cast<std::size_t>(layout.per_body);
+    column_of_body[idx(problem.bodies.body_of[i])] = i * idx(layout.per_body);
 
-  const auto per_body = static_cast<std::size_t>(layout.per_body);
+  const auto per_body = idx(layout.per_body);
   const FieldGeometry<F> geometry = exact_geometry<F>(packing);
   const PrunedRows rows_about(packing, problem, geometry);
   for (const PrunedBody& pruned : problem.network.pruned) {
-    const std::size_t column = column_of_body[static_cast<std::size_t>(pruned.body)];
+    const std::size_t column = column_of_body[idx(pruned.body)];
     std::array<PrunedRow, 3> mine;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(pruned.count); ++k)
-      mine[k] = rows_about.about(column / per_body, pruned.body, static_cast<std::size_t>(pruned.rows[k]));
-    const auto none = without_pivot(mine, static_cast<std::size_t>(pruned.count), per_body);
+    for (std::size_t k = 0; k < idx(pruned.count); ++k)
+      mine[k] = rows_about.about(column / per_body, pruned.body, idx(pruned.rows[k]));
+    const auto none = without_pivot(mine, idx(pruned.count), per_body);
     for (std::size_t d = 0; d < per_body; ++d) dependent[column + d] = none[d];
   }
   for (std::int32_t b : problem.network.bodies)  // without rows: free
-    if (problem.node_of_body[static_cast<std::size_t>(b)] < 0)
-      for (std::size_t d = 0; d < per_body; ++d) dependent[column_of_body[static_cast<std::size_t>(b)] + d] = 1;
+    if (problem.node_of_body[idx(b)] < 0)
+      for (std::size_t d = 0; d < per_body; ++d) dependent[column_of_body[idx(b)] + d] = 1;
 
   for (std::uint64_t attempt = 0;; ++attempt) {
     try {
       const ModularLdlt<F> ldlt(problem.tree, problem.dofs, problem.node_rows(problem.rows), 77 + attempt, false);
       for (std::size_t n = 0; n < problem.body_of_node.size(); ++n) {
         const std::int32_t body = problem.body_of_node[n];
-        const std::size_t column = body == problem.bodies.count ? static_cast<std::size_t>(layout.strain_column(0))
-                                                                : column_of_body[static_cast<std::size_t>(body)];
+        const std::size_t column =
+            body == problem.bodies.count ? idx(layout.strain_column(0)) : column_of_body[idx(body)];
         const auto entry = static_cast<std::size_t>(ldlt.offset(static_cast<std::int32_t>(n)));
-        for (std::size_t d = 0; d < static_cast<std::size_t>(problem.dofs[n]); ++d)
-          dependent[column + d] = ldlt.dependent()[entry + d];
+        for (std::size_t d = 0; d < idx(problem.dofs[n]); ++d) dependent[column + d] = ldlt.dependent()[entry + d];
       }
       return dependent;
     } catch (const RandomizationFailed&) {

@@ -30,12 +30,13 @@ struct LinkRows : ByRow<bool> {
   constexpr int count() const { return normal + tangential + rolling; }
 };
 
-//            c        s      r     sr   d
-// frictionless: N in all
-// friction     N T      N      N T   N    N
-// rolling      N T M    N M    N T   N    N
+//            c        s      r     sr   d    b (beam)
+// frictionless N        N      N     N    N    N T M
+// friction     N T      N      N T   N    N    N T M
+// rolling      N T M    N M    N T   N    N    N T M
 constexpr LinkRows rows_of(LinkKind kind, NetworkLaw law) {
   LinkRows rows{{true, false, false}};
+  if (kind == LinkKind::beam) return {{true, true, true}};
   if (law == NetworkLaw::frictionless || kind == LinkKind::distant || kind == LinkKind::both_yielded) return rows;
   rows.tangential = kind != LinkKind::sliding;
   rows.rolling = law == NetworkLaw::rolling && kind != LinkKind::rolling_yielded;
@@ -61,8 +62,9 @@ LinkLoad<F> rational_load(RowKind kind, const std::array<F, 2>& branch, F radius
   return rational_rolling<F>();
 }
 
-// Columns of G: body i has columns [i * per_body, (i + 1) * per_body): vx, vy and, with friction, the spin; a free cell
-// adds the two strain rates e_1, e_2 (compression positive) at the end. Velocities are peculiar (Eq. A1).
+// Columns of G: body i has columns [i * per_body, (i + 1) * per_body): vx, vy and, with friction or where there are
+// beams, the spin; a free cell adds the two strain rates e_1, e_2 (compression positive) at the end. Velocities are
+// peculiar (Eq. A1).
 struct DofLayout {
   int per_body = 3;
   std::int64_t bodies = 0;
@@ -72,7 +74,8 @@ struct DofLayout {
 };
 
 inline DofLayout dof_layout(const Packing<2>& packing, NetworkLaw law, bool cell_free) {
-  return {law == NetworkLaw::frictionless ? 2 : 3, static_cast<std::int64_t>(packing.bodies.size()), cell_free ? 2 : 0};
+  const bool points = law == NetworkLaw::frictionless && packing.beams.empty();
+  return {points ? 2 : 3, static_cast<std::int64_t>(packing.bodies.size()), cell_free ? 2 : 0};
 }
 
 inline std::int64_t row_count(const Packing<2>& packing, NetworkLaw law) {

@@ -5,11 +5,10 @@
 #include <numeric>
 
 #include "analysis/rigidity/modular_front.hpp"
+#include "geometry/base/index.hpp"
 
 namespace isostat {
 namespace {
-
-std::size_t u(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 // One supernode after the other, children before parents: its front is numbered, filled with the rows that begin in it
 // and with what its children left, eliminated, and its Schur complement kept for its parent.
@@ -23,14 +22,14 @@ class FrontSequence {
     first_child_.assign(tree.supernodes.size(), -1), sibling_.assign(tree.supernodes.size(), -1);
     for (std::size_t s = 0; s < tree.supernodes.size(); ++s)
       if (const auto p = tree.supernodes[s].parent; p >= 0)
-        sibling_[s] = first_child_[u(p)], first_child_[u(p)] = static_cast<std::int32_t>(s);
+        sibling_[s] = first_child_[idx(p)], first_child_[idx(p)] = static_cast<std::int32_t>(s);
   }
 
   // Numbers the dofs of the supernode's front, those to be eliminated first, and clears it.
   void place_supernode(std::size_t s) {
     const Supernode& node = tree_.supernodes[s];
     std::int32_t size = 0;
-    const auto place = [&](std::int32_t position) { local_[u(position)] = size, size += dofs_at(position); };
+    const auto place = [&](std::int32_t position) { local_[idx(position)] = size, size += dofs_at(position); };
     for (std::int32_t p = node.first; p < node.last; ++p) place(p);
     pivots_ = size;
     for (std::int32_t p : node.below) place(p);
@@ -40,12 +39,12 @@ class FrontSequence {
   // Adds w g g^T of the rows g whose first eliminated node is in the supernode.
   void add_rows(std::size_t s) {
     for (std::int32_t e = row_start_[s]; e < row_start_[s + 1]; ++e) {
-      const auto r = u(row_list_[u(e)]);
+      const auto r = idx(row_list_[idx(e)]);
       at_.clear(), value_.clear();
       for (const RowBlock<F>& block : blocks(r)) {
-        const std::int32_t node = node_of(block), begin = local_[u(tree_.position[u(node)])];
-        for (std::int32_t d = 0; d < dofs_[u(node)]; ++d)
-          if (!block.at[u(d)].is_zero()) at_.push_back(begin + d), value_.push_back(block.at[u(d)]);
+        const std::int32_t node = node_of(block), begin = local_[idx(tree_.position[idx(node)])];
+        for (std::int32_t d = 0; d < dofs_[idx(node)]; ++d)
+          if (!block.at[idx(d)].is_zero()) at_.push_back(begin + d), value_.push_back(block.at[idx(d)]);
       }
       const F weight = F::random(seed_, r);
       for (std::size_t i = 0; i < at_.size(); ++i) {
@@ -56,16 +55,16 @@ class FrontSequence {
   }
 
   void add_children(std::size_t s) {
-    for (std::int32_t c = first_child_[s]; c >= 0; c = sibling_[u(c)]) {
+    for (std::int32_t c = first_child_[s]; c >= 0; c = sibling_[idx(c)]) {
       at_.clear();
-      for (std::int32_t p : tree_.supernodes[u(c)].below)
-        for (std::int32_t d = 0; d < dofs_at(p); ++d) at_.push_back(local_[u(p)] + d);
-      const F* t = updates_[u(c)].data();
+      for (std::int32_t p : tree_.supernodes[idx(c)].below)
+        for (std::int32_t d = 0; d < dofs_at(p); ++d) at_.push_back(local_[idx(p)] + d);
+      const F* t = updates_[idx(c)].data();
       for (std::size_t i = 0; i < at_.size(); ++i) {  // the map ascends: a lower triangle goes to a lower triangle
         F* target = front_.row(at_[i]);
         for (std::size_t j = 0; j <= i; ++j) target[at_[j]] = target[at_[j]] + *t++;
       }
-      std::vector<F>().swap(updates_[u(c)]);
+      std::vector<F>().swap(updates_[idx(c)]);
     }
   }
 
@@ -76,7 +75,7 @@ class FrontSequence {
   void pass_up(std::size_t s) {
     const std::int32_t size = front_.size();
     if (size == pivots_ || tree_.supernodes[s].parent < 0) return;
-    updates_[s].reserve(u(size - pivots_) * u(size - pivots_ + 1) / 2);
+    updates_[s].reserve(idx(size - pivots_) * idx(size - pivots_ + 1) / 2);
     for (std::int32_t i = pivots_; i < size; ++i)
       updates_[s].insert(updates_[s].end(), front_.row(i) + pivots_, front_.row(i) + i + 1);
   }
@@ -85,29 +84,29 @@ class FrontSequence {
   const std::vector<F>& inverse() const { return inverse_; }  // of the pivots, 0 for a dependent column
   std::vector<F> lower() {                                    // front x pivots, row-major
     std::vector<F> lower;
-    lower.reserve(u(front_.size()) * u(pivots_));
+    lower.reserve(idx(front_.size()) * idx(pivots_));
     for (std::int32_t i = 0; i < front_.size(); ++i) lower.insert(lower.end(), front_.row(i), front_.row(i) + pivots_);
     return lower;
   }
 
  private:
-  std::int32_t dofs_at(std::int32_t position) const { return dofs_[u(tree_.node_at[u(position)])]; }
-  std::span<const RowBlock<F>> blocks(std::size_t row) const { return rows_.rows.of(u(rows_.selected[row])); }
-  std::int32_t node_of(const RowBlock<F>& block) const { return rows_.node_of_body[u(block.body)]; }
+  std::int32_t dofs_at(std::int32_t position) const { return dofs_[idx(tree_.node_at[idx(position)])]; }
+  std::span<const RowBlock<F>> blocks(std::size_t row) const { return rows_.rows.of(idx(rows_.selected[row])); }
+  std::int32_t node_of(const RowBlock<F>& block) const { return rows_.node_of_body[idx(block.body)]; }
 
   std::int32_t first_supernode(std::size_t row) const {
     std::int32_t first = std::numeric_limits<std::int32_t>::max();
-    for (const RowBlock<F>& block : blocks(row)) first = std::min(first, tree_.position[u(node_of(block))]);
-    return tree_.supernode_of[u(first)];
+    for (const RowBlock<F>& block : blocks(row)) first = std::min(first, tree_.position[idx(node_of(block))]);
+    return tree_.supernode_of[idx(first)];
   }
   void sort_rows() {  // by the supernode of their first eliminated node
     row_start_.assign(tree_.supernodes.size() + 1, 0);
-    for (std::size_t r = 0; r < rows_.selected.size(); ++r) ++row_start_[u(first_supernode(r)) + 1];
+    for (std::size_t r = 0; r < rows_.selected.size(); ++r) ++row_start_[idx(first_supernode(r)) + 1];
     std::partial_sum(row_start_.begin(), row_start_.end(), row_start_.begin());
-    row_list_.resize(u(row_start_.back()));
+    row_list_.resize(idx(row_start_.back()));
     std::vector<std::int32_t> next(row_start_.begin(), row_start_.end() - 1);
     for (std::size_t r = 0; r < rows_.selected.size(); ++r)
-      row_list_[u(next[u(first_supernode(r))]++)] = static_cast<std::int32_t>(r);
+      row_list_[idx(next[idx(first_supernode(r))]++)] = static_cast<std::int32_t>(r);
   }
 
   const EliminationTree& tree_;
@@ -132,7 +131,7 @@ ModularLdlt<F>::ModularLdlt(const EliminationTree& tree, const std::vector<std::
                             std::uint64_t seed, bool keep) {
   offset_.resize(dofs.size());
   for (std::size_t n = 0; n < dofs.size(); ++n) offset_[n] = columns_, columns_ += dofs[n];
-  dependent_.assign(u(columns_), 0);
+  dependent_.assign(idx(columns_), 0);
 
   FrontSequence<F> fronts(tree, dofs, rows, seed);
   for (std::size_t s = 0; s < tree.supernodes.size(); ++s) {
@@ -144,11 +143,11 @@ ModularLdlt<F>::ModularLdlt(const EliminationTree& tree, const std::vector<std::
 
     std::vector<std::int64_t> entry;  // of the front
     const auto append = [&](std::int32_t position) {
-      const std::int32_t node = tree.node_at[u(position)];
-      for (std::int32_t d = 0; d < dofs[u(node)]; ++d) entry.push_back(offset(node) + d);
+      const std::int32_t node = tree.node_at[idx(position)];
+      for (std::int32_t d = 0; d < dofs[idx(node)]; ++d) entry.push_back(offset(node) + d);
     };
     for (std::int32_t p = tree.supernodes[s].first; p < tree.supernodes[s].last; ++p) append(p);
-    for (std::size_t k = 0; k < entry.size(); ++k) dependent_[u(entry[k])] = fronts.inverse()[k].is_zero();
+    for (std::size_t k = 0; k < entry.size(); ++k) dependent_[idx(entry[k])] = fronts.inverse()[k].is_zero();
     if (!keep) continue;
     for (std::int32_t p : tree.supernodes[s].below) append(p);
     factors_.push_back({std::move(entry), fronts.pivots(), fronts.lower(), fronts.inverse()});
@@ -159,20 +158,19 @@ template <class F>
 void ModularLdlt<F>::back_substitute(std::vector<F>& x) const {
   for (std::size_t s = factors_.size(); s-- > 0;) {
     const Factor& f = factors_[s];
-    const auto width = static_cast<std::size_t>(f.pivots);
+    const auto width = idx(f.pivots);
     for (std::size_t k = width; k-- > 0;) {
-      F sum = x[static_cast<std::size_t>(f.entry[k])];
+      F sum = x[idx(f.entry[k])];
       if (!f.inverse_pivot[k].is_zero())
-        for (std::size_t i = k + 1; i < f.entry.size(); ++i)
-          sum = sum - f.lower[i * width + k] * x[static_cast<std::size_t>(f.entry[i])];
-      x[static_cast<std::size_t>(f.entry[k])] = sum;
+        for (std::size_t i = k + 1; i < f.entry.size(); ++i) sum = sum - f.lower[i * width + k] * x[idx(f.entry[i])];
+      x[idx(f.entry[k])] = sum;
     }
   }
 }
 
 template <class F>
 std::vector<F> ModularLdlt<F>::random_null_vector(std::uint64_t seed) const {
-  std::vector<F> x(static_cast<std::size_t>(columns_));
+  std::vector<F> x(idx(columns_));
   for (std::size_t c = 0; c < x.size(); ++c)
     if (dependent_[c]) x[c] = F::random(seed, c);
   back_substitute(x);
@@ -182,16 +180,16 @@ std::vector<F> ModularLdlt<F>::random_null_vector(std::uint64_t seed) const {
 template <class F>
 std::vector<F> ModularLdlt<F>::solve(std::vector<F> b) const {
   for (const Factor& f : factors_) {
-    const auto width = static_cast<std::size_t>(f.pivots);
+    const auto width = idx(f.pivots);
     for (std::size_t k = 0; k < width; ++k) {
-      F& at = b[static_cast<std::size_t>(f.entry[k])];
+      F& at = b[idx(f.entry[k])];
       const F y = at;
       if (f.inverse_pivot[k].is_zero()) {
         if (!y.is_zero()) throw std::logic_error("right-hand side outside the range");
         continue;
       }
       for (std::size_t i = k + 1; i < f.entry.size(); ++i) {
-        F& target = b[static_cast<std::size_t>(f.entry[i])];
+        F& target = b[idx(f.entry[i])];
         target = target - f.lower[i * width + k] * y;
       }
       at = y * f.inverse_pivot[k];

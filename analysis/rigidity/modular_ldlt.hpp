@@ -12,6 +12,7 @@
 #include "analysis/rigidity/elimination_tree.hpp"
 #include "analysis/rigidity/modular_front.hpp"
 #include "analysis/rigidity/rows.hpp"
+#include "geometry/base/index.hpp"
 
 namespace isostat {
 
@@ -34,7 +35,7 @@ class ModularLdlt {
   std::int64_t columns() const { return columns_; }
 
   // Offsets of the nodes' dofs in vectors: dof d of node n is entry offset(n) + d.
-  std::int64_t offset(std::int32_t node) const { return offset_[static_cast<std::size_t>(node)]; }
+  std::int64_t offset(std::int32_t node) const { return offset_[idx(node)]; }
   const std::vector<char>& dependent() const { return dependent_; }  // by entry: column depends on earlier ones
 
   // A random vector of null A = null G; columns - rank free entries. Needs keep.

@@ -1,5 +1,7 @@
 #include "analysis/rigidity/reduced_problem.hpp"
 
+#include "geometry/base/index.hpp"
+
 #include <chrono>
 
 namespace isostat {
@@ -23,19 +25,18 @@ ReducedProblem<F> reduce_problem(const Packing<2>& packing, NetworkLaw law, bool
   p.assembly_seconds = seconds(start);
 
   start = Clock::now();
-  const auto bodies = static_cast<std::size_t>(p.bodies.count);
+  const auto bodies = idx(p.bodies.count);
   p.node_of_body.assign(bodies + 1, -1);
   std::vector<char> touched(bodies + 1, 0);
   for (std::int32_t r : p.network.rows)
-    for (const RowBlock<F>& block : p.rows.of(static_cast<std::size_t>(r)))
-      touched[static_cast<std::size_t>(block.body)] = 1;
+    for (const RowBlock<F>& block : p.rows.of(idx(r))) touched[idx(block.body)] = 1;
   const auto add_node = [&](std::int32_t body, int dofs) {
-    p.node_of_body[static_cast<std::size_t>(body)] = static_cast<std::int32_t>(p.body_of_node.size());
+    p.node_of_body[idx(body)] = static_cast<std::int32_t>(p.body_of_node.size());
     p.body_of_node.push_back(body);
     p.dofs.push_back(static_cast<std::int8_t>(dofs));
   };
   for (std::int32_t b : p.network.bodies) {
-    if (touched[static_cast<std::size_t>(b)])
+    if (touched[idx(b)])
       add_node(b, p.per_body);
     else
       ++p.free_bodies;
@@ -45,11 +46,10 @@ ReducedProblem<F> reduce_problem(const Packing<2>& packing, NetworkLaw law, bool
   std::vector<std::pair<std::int32_t, std::int32_t>> edges;
   edges.reserve(p.network.rows.size());
   for (std::int32_t r : p.network.rows) {
-    const auto blocks = p.rows.of(static_cast<std::size_t>(r));
+    const auto blocks = p.rows.of(idx(r));
     for (std::size_t a = 0; a < blocks.size(); ++a)
       for (std::size_t b = a + 1; b < blocks.size(); ++b) {
-        const std::pair edge = {p.node_of_body[static_cast<std::size_t>(blocks[a].body)],
-                                p.node_of_body[static_cast<std::size_t>(blocks[b].body)]};
+        const std::pair edge = {p.node_of_body[idx(blocks[a].body)], p.node_of_body[idx(blocks[b].body)]};
         if (edges.empty() || edges.back() != edge) edges.push_back(edge);
       }
   }

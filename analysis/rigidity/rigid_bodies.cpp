@@ -303,7 +303,7 @@ class Contraction {
 }  // namespace
 
 RigidBodies contract_rigid_bodies(const Packing<2>& packing, NetworkLaw law) {
-  if (law == NetworkLaw::frictionless) {
+  if (law == NetworkLaw::frictionless && packing.beams.empty()) {
     RigidBodies bodies;
     bodies.count = static_cast<std::int32_t>(packing.bodies.size());
     bodies.body_of.resize(packing.bodies.size());

@@ -1,6 +1,6 @@
 // Exact contraction of grains into rigid bodies, before any linear algebra:
 //
-//   a contact with N, T and M rows glues its two grains;
+//   a link with N, T and M rows (a contact with rolling resistance, a beam) glues its two grains;
 //   a contact with N and T rows pins them at the contact point (no relative velocity there). Two bodies that share two
 //   distinct pins are one rigid body, and so are three bodies pinned pairwise at points that are not on a line.
 //
@@ -13,6 +13,7 @@
 
 #include "analysis/input.hpp"
 #include "dem/state/packing.hpp"
+#include "geometry/base/index.hpp"
 
 namespace isostat {
 
@@ -21,17 +22,15 @@ struct RigidBodies {
   std::vector<ImageShift<2>> placement;  // grain -> image a_i: x_i = r_i + a_i L lies in the frame of its body
   std::int32_t count = 0;
 
-  bool same(const Link<2>& link) const {
-    return body_of[static_cast<std::size_t>(link.i)] == body_of[static_cast<std::size_t>(link.j)];
-  }
+  bool same(const Link<2>& link) const { return body_of[idx(link.i)] == body_of[idx(link.j)]; }
   // Image of the body of j that a link i -> j (shift s) is about, seen from the body of i.
   ImageShift<2> image(const Link<2>& link) const {
-    const auto &a = placement[static_cast<std::size_t>(link.i)], &b = placement[static_cast<std::size_t>(link.j)];
+    const auto &a = placement[idx(link.i)], &b = placement[idx(link.j)];
     return {link.shift[0] + a[0] - b[0], link.shift[1] + a[1] - b[1]};
   }
 };
 
-// Frictionless networks have no pins: every grain stays its own body.
+// Frictionless networks have no pins: without beams every grain stays its own body.
 RigidBodies contract_rigid_bodies(const Packing<2>& packing, NetworkLaw law);
 
 }  // namespace isostat

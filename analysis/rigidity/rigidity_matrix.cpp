@@ -4,36 +4,26 @@
 #include <array>
 
 #include "dem/input_error.hpp"
-#include "dem/state/link.hpp"
+#include "dem/state/link_ends.hpp"
+#include "geometry/base/index.hpp"
 
 namespace isostat {
-namespace {
-
-Vec2 branch_vector(const Packing<2>& packing, const Link<2>& link) {
-  Vec2 r = packing.bodies.position[static_cast<std::size_t>(link.j)] -
-           packing.bodies.position[static_cast<std::size_t>(link.i)];
-  if (packing.cell) r += packing.cell->offset(link.shift);
-  return r;
-}
-
-}  // namespace
-
 RigidityMatrix rigidity_matrix(const Packing<2>& packing, NetworkLaw law, bool cell_free) {
   if (cell_free && !packing.cell) throw InputError("command line", 0, "--cell", "free", "the input has no cell");
   RigidityMatrix g;
   g.layout = dof_layout(packing, law, cell_free);
-  const auto rows = static_cast<std::size_t>(row_count(packing, law));
+  const auto rows = idx(row_count(packing, law));
   const int per_body = g.layout.per_body;
   g.row_start.reserve(rows + 1);
   g.row_start.push_back(0);
-  g.column.reserve(rows * static_cast<std::size_t>(2 * per_body + g.layout.strains));
+  g.column.reserve(rows * idx(2 * per_body + g.layout.strains));
   g.value.reserve(g.column.capacity());
 
   for (std::size_t l = 0; l < packing.links.size(); ++l) {
     const Link<2>& link = packing.links[l];
-    const Vec2 r = branch_vector(packing, link);
-    const auto f = link_frame(r[0], r[1], packing.bodies.radius[static_cast<std::size_t>(link.i)],
-                              packing.bodies.radius[static_cast<std::size_t>(link.j)]);
+    const LinkEnds<2> where = ends(packing, link);
+    const Vec2& r = where.branch;
+    const LinkFrame<double> f = frame(where);
     const LinkRows kept = rows_of(link.kind, law);
     for (const RowKind kind : kRowKinds) {
       if (!kept[kind]) continue;
@@ -44,8 +34,7 @@ RigidityMatrix rigidity_matrix(const Packing<2>& packing, NetworkLaw law, bool c
         g.value.push_back(value);
       };
       const auto add_body = [&](std::int32_t body, const std::array<double, 3>& at) {
-        for (int d = 0; d < per_body; ++d)
-          add(static_cast<std::int64_t>(per_body) * body + d, at[static_cast<std::size_t>(d)]);
+        for (int d = 0; d < per_body; ++d) add(static_cast<std::int64_t>(per_body) * body + d, at[idx(d)]);
       };
       if (link.i == link.j)
         add_body(link.i, {on_i[0] + on_j[0], on_i[1] + on_j[1], on_i[2] + on_j[2]});
@@ -63,12 +52,12 @@ RigidityMatrix rigidity_matrix(const Packing<2>& packing, NetworkLaw law, bool c
 }
 
 std::vector<double> RigidityMatrix::link_velocities(const std::vector<double>& u) const {
-  std::vector<double> result(static_cast<std::size_t>(rows()));
+  std::vector<double> result(idx(rows()));
   for (std::size_t r = 0; r < result.size(); ++r) {
     double sum = 0;
     for (std::int64_t e = row_start[r]; e < row_start[r + 1]; ++e) {
-      const auto k = static_cast<std::size_t>(e);
-      sum += value[k] * u[static_cast<std::size_t>(column[k])];
+      const auto k = idx(e);
+      sum += value[k] * u[idx(column[k])];
     }
     result[r] = sum;
   }
@@ -76,31 +65,31 @@ std::vector<double> RigidityMatrix::link_velocities(const std::vector<double>& u
 }
 
 std::vector<double> RigidityMatrix::body_forces(const std::vector<double>& f) const {
-  std::vector<double> result(static_cast<std::size_t>(columns()), 0.0);
+  std::vector<double> result(idx(columns()), 0.0);
   for (std::size_t r = 0; r < f.size(); ++r)
     for (std::int64_t e = row_start[r]; e < row_start[r + 1]; ++e) {
-      const auto k = static_cast<std::size_t>(e);
-      result[static_cast<std::size_t>(column[k])] += value[k] * f[r];
+      const auto k = idx(e);
+      result[idx(column[k])] += value[k] * f[r];
     }
   return result;
 }
 
 std::vector<double> body_velocities(const Packing<2>& packing, const DofLayout& layout, const Vec2& strain_rate) {
-  std::vector<double> u(static_cast<std::size_t>(layout.size()), 0.0);
-  const auto per_body = static_cast<std::size_t>(layout.per_body);
+  std::vector<double> u(idx(layout.size()), 0.0);
+  const auto per_body = idx(layout.per_body);
   for (std::size_t i = 0; i < packing.bodies.size(); ++i) {
     u[per_body * i] = packing.bodies.velocity[i][0];
     u[per_body * i + 1] = packing.bodies.velocity[i][1];
     if (per_body == 3) u[per_body * i + 2] = packing.bodies.spin[i];
   }
-  for (int a = 0; a < layout.strains; ++a) u[static_cast<std::size_t>(layout.strain_column(a))] = strain_rate[a];
+  for (int a = 0; a < layout.strains; ++a) u[idx(layout.strain_column(a))] = strain_rate[a];
   return u;
 }
 
 std::vector<double> link_forces(const Packing<2>& packing, const RigidityMatrix& matrix) {
-  std::vector<double> f(static_cast<std::size_t>(matrix.rows()));
+  std::vector<double> f(idx(matrix.rows()));
   for (std::size_t r = 0; r < f.size(); ++r) {
-    const Link<2>& link = packing.links[static_cast<std::size_t>(matrix.link_of_row[r])];
+    const Link<2>& link = packing.links[idx(matrix.link_of_row[r])];
     f[r] = ByRow<double>{link.normal_force, link.tangential_force, link.moment}[matrix.kind[r]];
   }
   return f;

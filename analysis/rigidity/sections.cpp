@@ -5,8 +5,10 @@
 #include "analysis/network/coordination.hpp"
 #include "analysis/rigidity/clusters.hpp"
 #include "analysis/rigidity/exact_rank.hpp"
+#include "analysis/rigidity/part_of_packing.hpp"
 #include "analysis/stiffness/soft_modes.hpp"
 #include "analysis/stiffness/sparse_cholesky.hpp"
+#include "geometry/base/index.hpp"
 
 namespace isostat {
 namespace {
@@ -19,26 +21,19 @@ constexpr int kNearNullValues = 6;
 
 // Null modes that vanish when the rattlers and their links are taken away (rattlers of a cohesionless state may touch).
 std::int64_t rattler_modes(const AnalysisInput& input, NetworkLaw law, bool cell_free, const ExactRank& whole) {
-  const Coordination c = coordination(input.packing(), read_forces(input));
+  const Packing<2>& packing = input.packing();
+  const Coordination c = coordination(packing, read_forces(input));
   bool linked = false;
-  for (const Link<2>& l : input.packing().links)
-    linked = linked || c.rattler[static_cast<std::size_t>(l.i)] || c.rattler[static_cast<std::size_t>(l.j)];
+  for (const Link<2>& l : packing.links) linked = linked || c.rattler[idx(l.i)] || c.rattler[idx(l.j)];
   if (!linked) return whole.rattler_modes;
-  Packing<2> backbone;
-  backbone.cell = input.packing().cell;
-  std::vector<std::int32_t> number(input.packing().bodies.size(), -1);
-  for (std::size_t i = 0; i < number.size(); ++i) {
-    if (c.rattler[i]) continue;
-    number[i] = static_cast<std::int32_t>(backbone.bodies.size());
-    backbone.bodies.id.push_back(input.packing().bodies.id[i]);
-    backbone.bodies.position.push_back(input.packing().bodies.position[i]);
-    backbone.bodies.radius.push_back(input.packing().bodies.radius[i]);
-  }
-  for (Link<2> link : input.packing().links) {
-    link.i = number[static_cast<std::size_t>(link.i)], link.j = number[static_cast<std::size_t>(link.j)];
-    if (link.i >= 0 && link.j >= 0) backbone.links.push_back(link);
-  }
-  if (backbone.bodies.size() == 0) return whole.floppy - whole.trivial;
+  std::vector<std::int32_t> grains, links;
+  const auto stays = [&](std::int32_t grain) { return !c.rattler[idx(grain)]; };
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(packing.bodies.size()); ++i)
+    if (stays(i)) grains.push_back(i);
+  for (std::size_t l = 0; l < packing.links.size(); ++l)
+    if (stays(packing.links[l].i) && stays(packing.links[l].j)) links.push_back(static_cast<std::int32_t>(l));
+  if (grains.empty()) return whole.floppy - whole.trivial;
+  const Packing<2> backbone = part_of(packing, grains, links);
   return whole.floppy - exact_rank(backbone, law, cell_free).floppy;
 }
 

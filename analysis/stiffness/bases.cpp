@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "analysis/rigidity/clusters.hpp"
 #include "analysis/rigidity/exact_rank.hpp"
 #include "analysis/rigidity/independent_columns.hpp"
+#include "analysis/rigidity/part_of_packing.hpp"
 #include "analysis/rigidity/rigidity_matrix.hpp"
 #include "analysis/stiffness/pseudo_inverse.hpp"
 #include "analysis/stiffness/stiffness_matrix.hpp"
 #include "analysis/vector_algebra.hpp"
+#include "geometry/base/index.hpp"
 
 namespace isostat {
 namespace {
@@ -25,7 +26,7 @@ NullVector scaled(Vector v) {
 }
 
 PseudoInverse normal_inverse(const Packing<2>& packing, NetworkLaw law, bool cell_free, const RigidityMatrix& g) {
-  return PseudoInverse(weighted_normal_matrix(g, Vector(static_cast<std::size_t>(g.rows()), 1.0)),
+  return PseudoInverse(weighted_normal_matrix(g, Vector(idx(g.rows()), 1.0)),
                        dependent_columns(packing, law, cell_free), SparseCholesky::Form::definite);
 }
 
@@ -47,8 +48,8 @@ std::vector<Vector> independent_states(const Packing<2>& packing, NetworkLaw law
   const PseudoInverse inverse = normal_inverse(packing, law, cell_free, g);
   std::vector<Vector> found;
   for (const double share : kShare)
-    for (std::size_t r = 0; r < static_cast<std::size_t>(g.rows()) && found.size() < wanted; ++r) {
-      Vector f(static_cast<std::size_t>(g.rows()), 0.0);
+    for (std::size_t r = 0; r < idx(g.rows()) && found.size() < wanted; ++r) {
+      Vector f(idx(g.rows()), 0.0);
       f[r] = 1;
       f = project_to_self_stress(g, inverse, std::move(f));
       for (int pass = 0; pass < 2; ++pass)
@@ -82,41 +83,27 @@ std::vector<NullVector> floppy_modes(const Packing<2>& packing, NetworkLaw law, 
 
 std::vector<NullVector> self_stress_states(const Packing<2>& packing, NetworkLaw law, bool cell_free,
                                            std::size_t most) {
-  const auto total = static_cast<std::size_t>(exact_rank(packing, law, cell_free).hyperstatic);
+  const auto total = idx(exact_rank(packing, law, cell_free).hyperstatic);
   const std::size_t wanted = std::min(most, total);
   const RigidityMatrix g = rigidity_matrix(packing, law, cell_free);
-  std::vector<std::size_t> first_row(packing.links.size() + 1, static_cast<std::size_t>(g.rows()));
-  for (std::size_t r = static_cast<std::size_t>(g.rows()); r-- > 0;)
-    first_row[static_cast<std::size_t>(g.link_of_row[r])] = r;
+  std::vector<std::size_t> first_row(packing.links.size() + 1, idx(g.rows()));
+  for (std::size_t r = idx(g.rows()); r-- > 0;) first_row[idx(g.link_of_row[r])] = r;
 
   const RigidClusters clusters = rigid_clusters(packing, law, cell_free);
   std::vector<Vector> states;
   for (std::size_t c = 0; c < clusters.clusters.size() && states.size() < wanted; ++c) {
     if (clusters.clusters[c].hyperstatic <= 0) continue;
-    Packing<2> part;
-    part.cell = packing.cell;
-    std::map<std::int32_t, std::int32_t> number;
+    std::vector<std::int32_t> links;
     std::vector<std::size_t> row_of;  // row of the part -> row of the whole
-    const auto local = [&](std::int32_t grain) {
-      const auto [at, fresh] = number.try_emplace(grain, static_cast<std::int32_t>(part.bodies.position.size()));
-      if (fresh) {
-        part.bodies.id.push_back(packing.bodies.id[static_cast<std::size_t>(grain)]);
-        part.bodies.position.push_back(packing.bodies.position[static_cast<std::size_t>(grain)]);
-        part.bodies.radius.push_back(packing.bodies.radius[static_cast<std::size_t>(grain)]);
-      }
-      return at->second;
-    };
     for (std::size_t l = 0; l < packing.links.size(); ++l) {
       if (clusters.cluster_of_link[l] != static_cast<std::int32_t>(c)) continue;
-      Link<2> link = packing.links[l];
-      link.i = local(link.i), link.j = local(link.j);
-      for (int k = 0; k < rows_of(link.kind, law).count(); ++k)
-        row_of.push_back(first_row[l] + static_cast<std::size_t>(k));
-      part.links.push_back(link);
+      for (int k = 0; k < rows_of(packing.links[l].kind, law).count(); ++k) row_of.push_back(first_row[l] + idx(k));
+      links.push_back(static_cast<std::int32_t>(l));
     }
-    const auto here = std::min(wanted - states.size(), static_cast<std::size_t>(clusters.clusters[c].hyperstatic));
+    const Packing<2> part = part_of(packing, {}, links);
+    const auto here = std::min(wanted - states.size(), idx(clusters.clusters[c].hyperstatic));
     for (const Vector& f : independent_states(part, law, cell_free, here, {})) {
-      Vector whole(static_cast<std::size_t>(g.rows()), 0.0);
+      Vector whole(idx(g.rows()), 0.0);
       for (std::size_t r = 0; r < f.size(); ++r) whole[row_of[r]] = f[r];
       states.push_back(std::move(whole));
     }

@@ -1,12 +1,16 @@
 #include "analysis/stiffness/link_tangent.hpp"
 
 #include "analysis/stiffness/stiffness_matrix.hpp"
+#include "dem/state/link_ends.hpp"
+#include "geometry/base/index.hpp"
 
 namespace isostat {
 
 LinkTangent::Response LinkTangent::operator()(double dx, double dy, double spin_i, double spin_j) const {
   const auto v = link_velocity(f, dx, dy, spin_i, spin_j);
-  const double dn = -stiffness.normal * v.normal, dt = -stiffness.tangential * v.tangential,
+  // A beam keeps T L, a contact T (dem/state/beam.hpp).
+  const double release = is_beam ? -tangential * v.normal / f.distance : 0;
+  const double dn = -stiffness.normal * v.normal, dt = -stiffness.tangential * v.tangential + release,
                dm = -stiffness.rolling * v.rolling;
   const double tx = -f.ny, ty = f.nx;
   const double turn = (tx * dx + ty * dy) / f.distance;  // of the frame
@@ -26,17 +30,14 @@ std::vector<LinkTangent> link_tangents(const Packing<2>& packing, NetworkLaw net
   std::vector<LinkTangent> tangents;
   tangents.reserve(packing.links.size());
   for (const Link<2>& link : packing.links) {
-    const auto i = static_cast<std::size_t>(link.i), j = static_cast<std::size_t>(link.j);
-    Vec2 r = packing.bodies.position[j] - packing.bodies.position[i];
-    if (packing.cell) r += packing.cell->offset(link.shift);
-    const double ri = packing.bodies.radius[i], rj = packing.bodies.radius[j];
-    tangents.push_back(
-        {link_frame(r[0], r[1], ri, rj), r, ri, rj, link.normal_force, link.tangential_force, link.moment});
+    const LinkEnds<2> at = ends(packing, link);
+    tangents.push_back({frame(at), at.branch, at.radius_i, at.radius_j, link.normal_force, link.tangential_force,
+                        link.moment, link.kind == LinkKind::beam});
   }
   const RigidityMatrix g = rigidity_matrix(packing, network_law, false);
   const std::vector<double> stiffness = row_stiffness(packing, g, law);
   for (std::size_t r = 0; r < stiffness.size(); ++r)
-    tangents[static_cast<std::size_t>(g.link_of_row[r])].stiffness[g.kind[r]] = stiffness[r];
+    tangents[idx(g.link_of_row[r])].stiffness[g.kind[r]] = stiffness[r];
   return tangents;
 }
 
@@ -53,7 +54,7 @@ UnsymmetricMatrix tangent_stiffness(const Packing<2>& packing, NetworkLaw networ
       if (dof(c) < 0) continue;
       const std::array<double, 6> column = LinkTangent::resistance(tangents[l].to_dof(c));
       for (int r = 0; r < 6; ++r)
-        if (dof(r) >= 0) entries.add(dof(r), dof(c), column[static_cast<std::size_t>(r)]);
+        if (dof(r) >= 0) entries.add(dof(r), dof(c), column[idx(r)]);
     }
   }
   return assemble(static_cast<std::int32_t>(layout.size()), entries);

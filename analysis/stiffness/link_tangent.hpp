@@ -1,6 +1,6 @@
 // What one link does when its two bodies and the cell move by an infinitesimal amount: stiffness, and the geometric
 // (prestress) term: its forces turn with its frame and its lever arms stretch. A contact without a tangential row
-// (sliding) keeps the tangential force that it has.
+// (sliding) keeps the tangential force that it has; a beam keeps T L.
 #pragma once
 #include <array>
 
@@ -16,6 +16,7 @@ struct LinkTangent {
   Vec2 branch;  // [a] r_ij
   double radius_i, radius_j;
   double normal, tangential, moment;  // forces now
+  bool is_beam = false;
   ByRow<double> stiffness{};
 
   struct Response {

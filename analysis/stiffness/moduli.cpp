@@ -4,7 +4,7 @@
 #include "analysis/stiffness/pseudo_inverse.hpp"
 #include "analysis/stiffness/stiffness_matrix.hpp"
 #include "analysis/vector_algebra.hpp"
-#include "dem/state/link.hpp"
+#include "dem/state/link_ends.hpp"
 
 namespace isostat {
 namespace {
@@ -15,13 +15,12 @@ std::array<std::vector<double>, 3> strain_velocities(const Packing<2>& packing, 
   for (auto& v : s) v.resize(static_cast<std::size_t>(g.rows()));
   for (std::size_t row = 0; row < s[0].size(); ++row) {
     const Link<2>& link = packing.links[static_cast<std::size_t>(g.link_of_row[row])];
-    const auto i = static_cast<std::size_t>(link.i), j = static_cast<std::size_t>(link.j);
-    Vec2 r = packing.bodies.position[j] - packing.bodies.position[i];
-    if (packing.cell) r += packing.cell->offset(link.shift);
-    const auto frame = link_frame(r[0], r[1], packing.bodies.radius[i], packing.bodies.radius[j]);
+    const LinkEnds<2> at = ends(packing, link);
+    const Vec2& r = at.branch;
+    const LinkFrame<double> f = frame(at);
     const std::array<Vec2, 3> affine = {Vec2{{-r[0], 0}}, Vec2{{0, -r[1]}}, Vec2{{-0.5 * r[1], -0.5 * r[0]}}};
     for (std::size_t b = 0; b < 3; ++b) {
-      const auto v = link_velocity(frame, affine[b][0], affine[b][1], 0.0, 0.0);
+      const auto v = link_velocity(f, affine[b][0], affine[b][1], 0.0, 0.0);
       s[b][row] = ByRow<double>{v.normal, v.tangential, v.rolling}[g.kind[row]];
     }
   }

@@ -8,8 +8,10 @@
 
 namespace isostat {
 
-// Stiffness of each row of G [F0/a, moments F0 a]: K_N, K_T, K_r, and -F0/D0 for the normal row of a distant link.
-// Throws InputError if the network has distant links and the law no attraction.
+// Stiffness of the rows of a link [F0/a, moments F0 a]: K_N, K_T, K_r of a contact, -F0/D0 for the normal row of a
+// distant link, a beam's own (dem/state/beam.hpp). Throws InputError if a link is distant and the law has no
+// attraction.
+ByRow<double> link_stiffness(const Packing<2>& packing, const Link<2>& link, const DiskLaw& law);
 std::vector<double> row_stiffness(const Packing<2>& packing, const RigidityMatrix& g, const DiskLaw& law);
 
 // The law of a network that brings none: the default scene's (K_N = K_T = 1e5 F0/a, K_r = 1e-4 a^2 K_N, D0 = 1e-3 a).

@@ -14,12 +14,13 @@ DiskLaw law_of(const AnalysisInput& input) { return input.has_law() ? input.stat
 
 std::vector<double> dof_masses(const Packing<2>& packing, NetworkLaw network_law) {
   std::vector<double> mass;
+  const bool spins = dof_layout(packing, network_law, false).per_body == 3;
   for (std::size_t i = 0; i < packing.bodies.size(); ++i) {
     if (!(packing.bodies.mass[i] > 0) || !(packing.bodies.inertia[i] > 0))
       throw InputError("bodies", 0, "mass", std::to_string(packing.bodies.mass[i]),
                        "vibrations need positive masses and inertias");
     mass.insert(mass.end(), {packing.bodies.mass[i], packing.bodies.mass[i]});
-    if (network_law != NetworkLaw::frictionless) mass.push_back(packing.bodies.inertia[i]);
+    if (spins) mass.push_back(packing.bodies.inertia[i]);
   }
   return mass;
 }

@@ -8,7 +8,7 @@
 namespace isostat {
 
 struct VibrationModes {
-  int per_body = 3;             // 2 for frictionless networks
+  int per_body = 3;             // 2 for frictionless networks without beams
   std::int64_t zero_modes = 0;  // K, exact; not among those below
   std::vector<double> omega;    // [1/T0] ascending magnitude; -|omega| for an unstable mode (omega^2 < 0)
   std::vector<std::vector<double>> displacement;  // by mode: per_body numbers a body (vx, vy, spin), M-orthonormal

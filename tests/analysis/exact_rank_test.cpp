@@ -50,7 +50,7 @@ TEST(ExactRank, CanonicalClusters) {
     }
     ++cases;
   }
-  EXPECT_EQ(cases, 66);
+  EXPECT_EQ(cases, 84);
 }
 
 constexpr NetworkLaw kLaws[] = {NetworkLaw::frictionless, NetworkLaw::friction, NetworkLaw::rolling};

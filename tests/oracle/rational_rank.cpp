@@ -33,7 +33,9 @@ std::int64_t rank_by_elimination(std::vector<Row> rows) {
 
 std::int64_t rational_rank(const Packing<2>& p, NetworkLaw law, bool cell_free) {
   std::vector<Row> rows;
-  const bool spins = law != NetworkLaw::frictionless;
+  bool beams = false;
+  for (const Link<2>& l : p.links) beams = beams || l.kind == LinkKind::beam;
+  const bool spins = law != NetworkLaw::frictionless || beams;
   const std::size_t per_body = spins ? 3 : 2, strain = per_body * p.bodies.size();
   for (const Link<2>& l : p.links) {
     const auto i = static_cast<std::size_t>(l.i), j = static_cast<std::size_t>(l.j);
@@ -50,11 +52,15 @@ std::int64_t rational_rank(const Packing<2>& p, NetworkLaw law, bool cell_free) 
       return row;
     };
     rows.push_back(row_along(d[0], d[1]));
-    const bool tangential = spins && (l.kind == LinkKind::closed || l.kind == LinkKind::rolling_yielded);
-    const bool moment = law == NetworkLaw::rolling && (l.kind == LinkKind::closed || l.kind == LinkKind::sliding);
+    const bool beam = l.kind == LinkKind::beam;  // whatever the law; lever arms of half the length (seed 003, Sec. 3)
+    const bool tangential = beam || (law != NetworkLaw::frictionless &&
+                                     (l.kind == LinkKind::closed || l.kind == LinkKind::rolling_yielded));
+    const bool moment =
+        beam || (law == NetworkLaw::rolling && (l.kind == LinkKind::closed || l.kind == LinkKind::sliding));
     if (tangential) {
       Row row = row_along(-d[1], d[0]);
-      const mpq_class square = d[0] * d[0] + d[1] * d[1], ri(p.bodies.radius[i]), rj(p.bodies.radius[j]);
+      const mpq_class square = d[0] * d[0] + d[1] * d[1], ri(beam ? 1 : p.bodies.radius[i]),
+                      rj(beam ? 1 : p.bodies.radius[j]);
       row[3 * i + 2] -= square * ri / (ri + rj);
       row[3 * j + 2] -= square * rj / (ri + rj);
       rows.push_back(row);
