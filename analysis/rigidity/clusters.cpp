@@ -9,6 +9,7 @@
 #include "analysis/rigidity/reduced_problem.hpp"
 #include "dem/input_error.hpp"
 #include "geometry/base/index.hpp"
+#include "geometry/union_find.hpp"
 
 namespace isostat {
 namespace {
@@ -84,23 +85,10 @@ Motion random_motion(const ReducedProblem<F>& problem) {
   return motion;
 }
 
-class Sets {
- public:
-  explicit Sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-  std::int32_t find(std::int32_t i) {
-    while (parent_[idx(i)] != i) i = parent_[idx(i)] = parent_[idx(parent_[idx(i)])];
-    return i;
-  }
-  void join(std::int32_t a, std::int32_t b) { parent_[idx(find(b))] = find(a); }
-
- private:
-  std::vector<std::int32_t> parent_;
-};
-
 // Links whose two ends move as one rigid body (with friction), labelled by a representative grain; -1: hinges.
 std::vector<std::int32_t> label_by_grains(const Packing<2>& packing, const ReducedProblem<F>& problem,
                                           const Motion& motion, const FieldGeometry<F>& geometry) {
-  Sets sets(packing.bodies.size());
+  UnionFind sets(packing.bodies.size());
   std::vector<char> together(packing.links.size(), 0);
   for (std::size_t l = 0; l < packing.links.size(); ++l) {
     const Link<2>& link = packing.links[l];
@@ -110,11 +98,11 @@ std::vector<std::int32_t> label_by_grains(const Packing<2>& packing, const Reduc
     // The image of b: V_b - W_b z x o - e o.
     const F vx = b[0] + b[2] * o[1] - motion.back()[0] * o[0], vy = b[1] - b[2] * o[0] - motion.back()[1] * o[1];
     together[l] = a[2] == b[2] && a[0] == vx && a[1] == vy;
-    if (together[l]) sets.join(link.i, link.j);
+    if (together[l]) sets.join(idx(link.j), idx(link.i));
   }
   std::vector<std::int32_t> label(packing.links.size(), -1);
   for (std::size_t l = 0; l < label.size(); ++l)
-    if (together[l]) label[l] = sets.find(packing.links[l].i);
+    if (together[l]) label[l] = static_cast<std::int32_t>(sets.find(idx(packing.links[l].i)));
   return label;
 }
 
@@ -130,7 +118,7 @@ std::vector<std::int32_t> label_by_links(const Packing<2>& packing, const Reduce
                       o = geometry.offset(problem.bodies.placement[i]);
     velocity[i] = {body[0] - body[2] * x[1] + strain[0] * o[0], body[1] + body[2] * x[0] + strain[1] * o[1]};
   }
-  Sets sets(packing.links.size());
+  UnionFind sets(packing.links.size());
   std::vector<std::vector<std::pair<std::uint64_t, std::int32_t>>> at_grain(packing.bodies.size());
   for (std::size_t l = 0; l < packing.links.size(); ++l) {
     const Link<2>& link = packing.links[l];
@@ -144,10 +132,10 @@ std::vector<std::int32_t> label_by_links(const Packing<2>& packing, const Reduce
   for (auto& list : at_grain) {
     std::sort(list.begin(), list.end());
     for (std::size_t k = 1; k < list.size(); ++k)
-      if (list[k].first == list[k - 1].first) sets.join(list[k].second, list[k - 1].second);
+      if (list[k].first == list[k - 1].first) sets.join(idx(list[k - 1].second), idx(list[k].second));
   }
   std::vector<std::int32_t> label(packing.links.size());
-  for (std::size_t l = 0; l < label.size(); ++l) label[l] = sets.find(static_cast<std::int32_t>(l));
+  for (std::size_t l = 0; l < label.size(); ++l) label[l] = static_cast<std::int32_t>(sets.find(l));
   return label;
 }
 

@@ -6,6 +6,7 @@
 
 #include "analysis/rigidity/field_geometry.hpp"
 #include "analysis/rigidity/link_rows.hpp"
+#include "geometry/placed_sets.hpp"
 
 namespace isostat {
 namespace {
@@ -17,34 +18,6 @@ using Shift = ImageShift<2>;
 Shift operator+(const Shift& a, const Shift& b) { return {a[0] + b[0], a[1] + b[1]}; }
 Shift operator-(const Shift& a, const Shift& b) { return {a[0] - b[0], a[1] - b[1]}; }
 constexpr Shift kHome{};
-
-// Union-find whose elements carry the image that puts them into the frame of their root.
-class PlacedSets {
- public:
-  explicit PlacedSets(std::size_t n) : parent_(n), shift_(n, kHome) { std::iota(parent_.begin(), parent_.end(), 0); }
-
-  std::pair<int, Shift> find(int i) {
-    int root = i;
-    Shift total = kHome;
-    while (parent_[u(root)] != root) total = total + shift_[u(root)], root = parent_[u(root)];
-    for (Shift rest = total; parent_[u(i)] != root && i != root;) {  // compress the path
-      const int next = parent_[u(i)];
-      const Shift step = shift_[u(i)];
-      parent_[u(i)] = root;
-      shift_[u(i)] = rest;
-      rest = rest - step;
-      i = next;
-    }
-    return {root, total};
-  }
-  // Root b joins root a; its image by `image` lies in the frame of a.
-  void absorb(int a, int b, const Shift& image) { parent_[u(b)] = a, shift_[u(b)] = image; }
-
- private:
-  static std::size_t u(int i) { return static_cast<std::size_t>(i); }
-  std::vector<int> parent_;
-  std::vector<Shift> shift_;
-};
 
 // Pins between bodies, found by (body, body, image). Entries of absorbed bodies go stale and are never asked for.
 class PinTable {
@@ -195,7 +168,7 @@ class Contraction {
 
   // The pin point in the frame of the body that holds this end.
   Point point(int end) {
-    const Shift a = sets_.find(grain(end)).second;
+    const Shift a = sets_.find(grain(end)).image;
     const Shift raw = (end & 1) ? a - pin(u(end >> 1)).shift : a;
     const Point& c = point_[u(end >> 1)];
     if (raw == kHome) return c;
@@ -215,7 +188,7 @@ class Contraction {
   }
 
   void append(int end) {
-    const int a = sets_.find(grain(end)).first;
+    const int a = sets_.find(grain(end)).root;
     if (head_[u(a)] < 0)
       head_[u(a)] = end;
     else
@@ -228,7 +201,7 @@ class Contraction {
   // A pin between the body of this end and its neighbour has come into being: what does it make rigid?
   void add_pin(int end) {
     if (!unusable_.empty() && unusable(end >> 1)) return;
-    const int a = sets_.find(grain(end)).first;
+    const int a = sets_.find(grain(end)).root;
     const auto [c, image_c] = neighbour(end);
     if (a == c) return;
     const Point here = point(end);
@@ -291,7 +264,7 @@ class Contraction {
   };
   const Packing<2>& packing_;
   FieldGeometry<F> geometry_;
-  PlacedSets sets_;
+  PlacedSets<2> sets_;
   PinTable table_;
   std::vector<std::int32_t> pin_link_;
   std::vector<Point> point_;  // pin point in the raw frame of the link's grain i

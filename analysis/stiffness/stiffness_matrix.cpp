@@ -4,6 +4,7 @@
 #include <limits>
 #include <new>
 
+#include "dem/disks/at_rest.hpp"
 #include "dem/input_error.hpp"
 #include "dem/state/beam.hpp"
 #include "dem/state/link_ends.hpp"
@@ -19,11 +20,12 @@ ByRow<double> link_stiffness(const Packing<2>& packing, const Link<2>& link, con
     const BeamStiffness k = beam_stiffness(beam, norm(ends(packing, link).branch));
     return {k.normal, k.tangential, k.rolling};
   }
-  if (link.kind != LinkKind::distant) return {law.normal_stiffness, law.tangential_stiffness, law.rolling_stiffness};
+  if (link.kind != LinkKind::distant)
+    return {contact(law, link.gap).stiffness, law.tangential_stiffness, law.rolling_stiffness};
   if (!(law.attraction_range > 0))
     throw InputError("network", 0, "contact.TYPE", "d",
                      "a distant link has a stiffness only under a law with attraction");
-  return {-law.attraction / law.attraction_range, 0, 0};
+  return {distant(law, link.gap).stiffness, 0, 0};
 }
 
 std::vector<double> row_stiffness(const Packing<2>& packing, const RigidityMatrix& g, const DiskLaw& law) {

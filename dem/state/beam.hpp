@@ -1,6 +1,6 @@
 // An elastic beam at rest: force and moment of its link, energy and stiffness. A beam joins the centres of two bodies;
-// as a link it has the frame of two radii L0/2 (dem/state/link_ends.hpp). Seed 003, Secs. 2-3, Eqs. 28-49, with the
-// rest length L0 in EI/L and the length L in the lever arm, so that the forces are exactly those of the energy.
+// as a link it has the frame of two radii L0/2 (dem/state/link_ends.hpp). Poeschel and Buchholtz 1995, Eqs. 28-49, with
+// the rest length L0 in EI/L and the length L in the lever arm, so that the forces are exactly those of the energy.
 //
 // T_a, T_b: rotations of the two ends against the chord, less their rest values [rad].
 #pragma once
@@ -44,7 +44,7 @@ inline BeamStiffness beam_stiffness(const Beam& beam, double length) {
 }
 
 // The beam of a network that says no more than which bodies it joins: without load as it stands, with the default
-// stiffnesses of seed 003 in the units of the file (E = 1e5 g/s^2, E I = 10 g cm^3/s^2).
+// stiffnesses of that paper in the units of the file (E = 1e5 g/s^2, E I = 10 g cm^3/s^2).
 inline Beam beam_at_rest(double length) { return {length, 0, 0, 1e5, 10}; }
 
 }  // namespace isostat

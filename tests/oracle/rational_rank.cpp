@@ -52,7 +52,9 @@ std::int64_t rational_rank(const Packing<2>& p, NetworkLaw law, bool cell_free) 
       return row;
     };
     rows.push_back(row_along(d[0], d[1]));
-    const bool beam = l.kind == LinkKind::beam;  // whatever the law; lever arms of half the length (seed 003, Sec. 3)
+    const bool beam =
+        l.kind ==
+        LinkKind::beam;  // whatever the law; lever arms of half the length (Poeschel and Buchholtz 1995, Sec. 3)
     const bool tangential = beam || (law != NetworkLaw::frictionless &&
                                      (l.kind == LinkKind::closed || l.kind == LinkKind::rolling_yielded));
     const bool moment =

@@ -123,7 +123,8 @@ TEST(Beam, ForcesAreTheGradientOfTheEnergy) {
   }
 }
 
-// Seed 003, Eqs. 42-49: M_A = -(EI/L0) (4 T_a + 2 T_b), and so on B; the lever arms give the shear force.
+// Poeschel and Buchholtz 1995, Eqs. 42-49: M_A = -(EI/L0) (4 T_a + 2 T_b), and so on B; the lever arms give the shear
+// force.
 TEST(Beam, EndMoments) {
   const Beam beam{1.3, 0, 0, 7, 2};
   const double length = 1.7, turn_i = 0.3, turn_j = -0.11, bend = beam.bending / beam.rest_length;
