@@ -3,14 +3,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 
+#include "dem/solver/clocks.hpp"
+
 namespace isostat {
 namespace {
-
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 constexpr double kRefresh = 0.2;       // [s]
 constexpr double kTrendMemory = 10.0;  // [s] the decline is measured over the last so many seconds or more
@@ -28,8 +27,14 @@ std::string clock_text(double seconds) {
   return text;
 }
 
+std::string solid_fraction_text(double phi) {
+  char text[32];
+  std::snprintf(text, sizeof text, "  Phi %.4f", phi);
+  return std::isnan(phi) ? std::string() : text;
+}
+
 ProgressLine::ProgressLine(int stages, int samples)
-    : stages_(stages), samples_(samples), terminal_(isatty(STDERR_FILENO) == 1), start_(now()) {}
+    : stages_(stages), samples_(samples), terminal_(isatty(STDERR_FILENO) == 1), start_(wall_seconds()) {}
 
 ProgressLine::~ProgressLine() {
   if (terminal_ && last_shown_ >= 0) std::fputc('\n', stderr);
@@ -37,7 +42,7 @@ ProgressLine::~ProgressLine() {
 
 // A timed stage: by proportion. Equilibrium: by the exponential decline of the criterion furthest from its tolerance.
 double ProgressLine::seconds_left(const Progress& p, const StageScene& stage) {
-  const double t = now();
+  const double t = wall_seconds();
   if (p.stage != shown_stage_)
     shown_stage_ = p.stage, first_at_ = t, first_time_ = p.time, first_log_ratio_ = std::log(p.last.ratio);
   if (stage.until == Until::time) {
@@ -55,15 +60,15 @@ double ProgressLine::seconds_left(const Progress& p, const StageScene& stage) {
 void ProgressLine::update(const Progress& p, const Scene& scene, int sample) {
   if (!terminal_) return;
   const std::scoped_lock hold(lock_);
-  const double t = now();
+  const double t = wall_seconds();
   if (t - last_shown_ < kRefresh) return;
   last_shown_ = t;
   const double left = seconds_left(p, scene.stages[static_cast<std::size_t>(p.stage)]);
   std::string head;
   if (samples_ > 1) head = "sample " + std::to_string(sample + 1) + "/" + std::to_string(samples_) + "  ";
-  std::fprintf(stderr, "\r\033[K%sstage %d/%d  t %.1f T0  Phi %.4f  missing: %s %.3g x tolerance  %s, ETA %s",
-               head.c_str(), p.stage + 1, stages_, p.time, p.solid_fraction, p.last.name.c_str(), p.last.ratio,
-               clock_text(t - start_).c_str(), clock_text(left).c_str());
+  std::fprintf(stderr, "\r\033[K%sstage %d/%d  t %.1f T0%s  missing: %s %.3g x tolerance  %s, ETA %s", head.c_str(),
+               p.stage + 1, stages_, p.time, solid_fraction_text(p.solid_fraction).c_str(), p.last.name.c_str(),
+               p.last.ratio, clock_text(t - start_).c_str(), clock_text(left).c_str());
   std::fflush(stderr);
 }
 

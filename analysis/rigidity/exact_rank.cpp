@@ -1,11 +1,11 @@
 #include "analysis/rigidity/exact_rank.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <numeric>
 
 #include "analysis/rigidity/reduced_problem.hpp"
 #include "dem/input_error.hpp"
+#include "dem/solver/clocks.hpp"
 
 namespace isostat {
 namespace {
@@ -43,7 +43,6 @@ void count_null_spaces(const Packing<2>& packing, NetworkLaw law, ExactRank& r) 
 }  // namespace
 
 ExactRank exact_rank(const Packing<2>& packing, NetworkLaw law, bool cell_free) {
-  using Clock = std::chrono::steady_clock;
   if (cell_free && !packing.cell) throw InputError("command line", 0, "--cell", "free", "the input has no cell");
   ExactRank r;
   r.dofs = dof_layout(packing, law, cell_free).size();
@@ -56,7 +55,7 @@ ExactRank exact_rank(const Packing<2>& packing, NetworkLaw law, bool cell_free) 
   r.timings.assembly = problem.assembly_seconds;
   r.timings.ordering = problem.ordering_seconds;
 
-  const auto start = Clock::now();
+  const double start = wall_seconds();
   r.floppy = null_dimension(problem, problem.rows);
   r.primes = {FirstField::kPrime};
   r.floppy_generic = null_dimension(
@@ -72,7 +71,7 @@ ExactRank exact_rank(const Packing<2>& packing, NetworkLaw law, bool cell_free) 
     else if (second < r.floppy)
       r.floppy = second, r.primes = {SecondField::kPrime};  // the smaller K is nearer
   }
-  r.timings.elimination = std::chrono::duration<double>(Clock::now() - start).count();
+  r.timings.elimination = wall_seconds() - start;
 
   r.rank = r.dofs - r.floppy;
   r.hyperstatic = r.rows - r.rank;

@@ -1,30 +1,25 @@
 #include "analysis/rigidity/reduced_problem.hpp"
 
+#include "dem/solver/clocks.hpp"
 #include "geometry/base/index.hpp"
-
-#include <chrono>
 
 namespace isostat {
 
 template <class F>
 ReducedProblem<F> reduce_problem(const Packing<2>& packing, NetworkLaw law, bool cell_free) {
-  using Clock = std::chrono::steady_clock;
-  const auto seconds = [](Clock::time_point from) {
-    return std::chrono::duration<double>(Clock::now() - from).count();
-  };
   ReducedProblem<F> p;
   p.per_body = dof_layout(packing, law, cell_free).per_body;
 
-  auto start = Clock::now();
+  double start = wall_seconds();
   p.bodies = contract_rigid_bodies(packing, law);
-  p.contraction_seconds = seconds(start);
+  p.contraction_seconds = wall_seconds() - start;
 
-  start = Clock::now();
+  start = wall_seconds();
   p.rows = body_rows(packing, law, cell_free, p.bodies, exact_geometry<F>(packing));
   p.network = prune(p.rows, p.bodies.count, p.per_body);
-  p.assembly_seconds = seconds(start);
+  p.assembly_seconds = wall_seconds() - start;
 
-  start = Clock::now();
+  start = wall_seconds();
   const auto bodies = idx(p.bodies.count);
   p.node_of_body.assign(bodies + 1, -1);
   std::vector<char> touched(bodies + 1, 0);
@@ -54,7 +49,7 @@ ReducedProblem<F> reduce_problem(const Packing<2>& packing, NetworkLaw law, bool
       }
   }
   p.tree = elimination_tree(static_cast<std::int32_t>(p.dofs.size()), edges, p.strain_node());
-  p.ordering_seconds = seconds(start);
+  p.ordering_seconds = wall_seconds() - start;
   return p;
 }
 

@@ -1,15 +1,16 @@
 #include "apps/study/run_task.hpp"
 
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "apps/progress_line.hpp"
 #include "apps/sample_run.hpp"
 #include "apps/study/process_pool.hpp"
 #include "apps/study/state_digest.hpp"
 #include "apps/study/state_report.hpp"
 #include "dem/files/state_file.hpp"
+#include "dem/solver/clocks.hpp"
 
 namespace isostat {
 namespace {
@@ -34,17 +35,17 @@ RunRecord adopted(const State<System>& state) {
 class Teller {
  public:
   void operator()(const Progress& p, std::size_t stages) {
-    const auto now = std::chrono::steady_clock::now();
-    if (std::chrono::duration<double>(now - last_).count() < kTellSeconds) return;
+    const double now = wall_seconds();
+    if (now - last_ < kTellSeconds) return;
     last_ = now;
     char text[160];
-    std::snprintf(text, sizeof text, "stage %d/%zu  t %.1f T0  Phi %.4f  %s %.3g x tolerance", p.stage + 1, stages,
-                  p.time, p.solid_fraction, p.last.name.c_str(), p.last.ratio);
+    std::snprintf(text, sizeof text, "stage %d/%zu  t %.1f T0%s  %s %.3g x tolerance", p.stage + 1, stages, p.time,
+                  solid_fraction_text(p.solid_fraction).c_str(), p.last.name.c_str(), p.last.ratio);
     TaskLink::send(text);
   }
 
  private:
-  std::chrono::steady_clock::time_point last_{};
+  double last_ = -kTellSeconds;  // [s]
 };
 
 RunRecord make_state(const StudyRun& run, bool tell_progress) {

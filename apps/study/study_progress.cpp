@@ -4,16 +4,14 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 
 #include "apps/progress_line.hpp"
+#include "dem/solver/clocks.hpp"
 
 namespace isostat {
 namespace {
-
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 constexpr double kMostOfARun = 0.95;  // a run that takes longer than expected counts as done to so much
 
@@ -26,7 +24,7 @@ StudyProgress::StudyProgress(std::vector<double> work, std::size_t total, std::s
       done_(done_before),
       at_a_time_(at_a_time),
       terminal_(isatty(STDERR_FILENO) == 1),
-      start_(now()) {}
+      start_(wall_seconds()) {}
 
 StudyProgress::~StudyProgress() { clear_line(); }
 
@@ -34,14 +32,14 @@ void StudyProgress::clear_line() const {
   if (terminal_) std::fputs("\r\033[K", stderr);
 }
 
-void StudyProgress::started(std::size_t task) { at_work_[task] = now(); }
+void StudyProgress::started(std::size_t task) { at_work_[task] = wall_seconds(); }
 
 void StudyProgress::tells(std::size_t, const std::string& name, const std::string& how_far) {
   last_told_ = name + ": " + how_far;
 }
 
 void StudyProgress::ended(std::size_t task, const std::string& name, const std::string& how) {
-  const double seconds = now() - at_work_[task];
+  const double seconds = wall_seconds() - at_work_[task];
   at_work_.erase(task);
   work_done_ += work_[task];
   seconds_done_ += seconds;
@@ -56,7 +54,8 @@ double StudyProgress::seconds_left() const {
   const double speed = work_done_ / seconds_done_;  // of one place
   double left = -work_done_;
   for (const double w : work_) left += w;
-  for (const auto& [task, since] : at_work_) left -= std::min(kMostOfARun * work_[task], speed * (now() - since));
+  for (const auto& [task, since] : at_work_)
+    left -= std::min(kMostOfARun * work_[task], speed * (wall_seconds() - since));
   const std::size_t places = std::clamp<std::size_t>(total_ - done_, 1, at_a_time_);
   return left / (speed * static_cast<double>(places));
 }
@@ -64,7 +63,7 @@ double StudyProgress::seconds_left() const {
 void StudyProgress::show() {
   if (!terminal_) return;
   std::string line = std::to_string(done_) + " of " + std::to_string(total_) + " runs done, " +
-                     std::to_string(at_work_.size()) + " at work  " + clock_text(now() - start_) + ", ETA " +
+                     std::to_string(at_work_.size()) + " at work  " + clock_text(wall_seconds() - start_) + ", ETA " +
                      clock_text(seconds_left()) + "  " + last_told_;
   winsize window{};
   if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 1 && line.size() >= window.ws_col)

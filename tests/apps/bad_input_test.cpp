@@ -76,5 +76,31 @@ TEST_F(BadInput, DamagedStates) {
   refused("later", later, "format version 3");
 }
 
+// An isolated packing: what needs no cell runs, what needs one says so.
+TEST_F(BadInput, WhatNeedsACellIsRefusedWithoutOne) {
+  write("pair.net", "grain 1 0 0 .5\ngrain 2 .9995 0 .5\ngrain 3 .5 .8655 .5\n");
+  const std::string scene = "[grains]\nfile = \"" + in_folder("pair.net") +
+                            "\"\n[law]\nnormal_stiffness = 1e4\n[finish]\nmethod = \"newton\"\n[[stage]]\n";
+  write("rest.toml", scene);
+  write("press.toml", scene + "pressure = 0.1\n");
+  const std::string state = in_folder("state.h5");
+  const Outcome pressed = run("pack " + in_folder("press.toml") + " -o " + state);
+  EXPECT_EQ(pressed.code, 2);
+  EXPECT_THAT(pressed.err, HasSubstr("stage.0.pressure: needs a periodic cell"));
+  EXPECT_FALSE(std::filesystem::exists(state));
+
+  ASSERT_EQ(run("pack " + in_folder("rest.toml") + " -o " + state).code, 0);
+  for (const char* section : {"counts", "equilibrium", "forces", "rigidity", "clusters", "stiffness", "modes", "bases"})
+    EXPECT_EQ(run("analyze " + state + " --only " + section).code, 0) << section;
+  for (const char* section : {"stress", "percolation", "moduli", "scattering", "dacf"}) {
+    const Outcome o = run("analyze " + state + " --only " + section);
+    EXPECT_EQ(o.code, 2) << section;
+    EXPECT_THAT(o.err, HasSubstr("needs a periodic cell")) << section;
+  }
+  EXPECT_EQ(run("analyze " + state + " --cell free").code, 2);
+  EXPECT_EQ(run("lab throughput " + in_folder("pair.net") + " --steps 2").code, 0);
+  EXPECT_EQ(run("lab throughput " + in_folder("pair.net") + " --steps 2 --cell free").code, 2);
+}
+
 }  // namespace
 }  // namespace isostat
