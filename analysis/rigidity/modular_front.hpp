@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/rigidity/modular_products.hpp"
+#include "geometry/base/index.hpp"
 
 namespace isostat {
 
@@ -69,8 +70,8 @@ class ModularFront {
         continue;
       }
       ++rank;
-      inverse[static_cast<std::size_t>(first + k)] = d.inverse();
-      const F minus = -inverse[static_cast<std::size_t>(first + k)];
+      inverse[idx(first + k)] = d.inverse();
+      const F minus = -inverse[idx(first + k)];
       F* kept = scaled_.data() + at(k, stride, 0);
       std::copy(column + k + 1, column + length, kept + k + 1);
       std::fill(column + k + 1, column + length, F{});

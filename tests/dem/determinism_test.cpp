@@ -96,6 +96,24 @@ TEST(Determinism, AnInterruptedRunGoesOnAsIfItHadNotBeen) {
   EXPECT_EQ(physical_hash(s), physical_hash(straight));
 }
 
+// One clock through the run: stages shorter than the time between checkpoints are checkpointed, too.
+TEST(Determinism, ManyShortStagesShareOneCheckpointClock) {
+  Scene scene = small_scene();
+  StageScene stage = scene.stages[0];
+  stage.velocity = 0, stage.time = 0.5;
+  scene.stages.assign(1200, stage);
+  scene.stages[0].velocity = 10;
+  State<Disks> s = initial_disks(scene, 5);
+  int checkpoints = 0;
+  RunHooks<Disks> hooks;
+  hooks.checkpoint = [&](const State<Disks>&) { ++checkpoints; };
+  hooks.checkpoint_seconds = 0.02;
+  const RunOutcome outcome = run_stages(s, {}, hooks);
+  ASSERT_TRUE(outcome.all_met());
+  ASSERT_GT(outcome.wall_seconds, 0.1);  // 1200 stages of less than a millisecond each
+  EXPECT_GE(checkpoints, 3);
+}
+
 TEST(Determinism, TheSeedDecidesEverything) {
   const Scene scene = small_scene();
   State<Disks> a = initial_disks(scene, 7), b = initial_disks(scene, 7), c = initial_disks(scene, 8);
