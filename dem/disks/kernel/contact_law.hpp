@@ -1,5 +1,5 @@
-// The supported contact laws: a visible list of compositions of the axes. To add one, add a line to `Supported`; to
-// add a law to an axis, write its type in dem/disks/law/ and give it a keyword in dem/disks/kernel/pair_force.cpp.
+// The supported contact laws: a visible list of compositions of the axes. To add one, add a line to `Supported`, and
+// the case to the tests that run them all; to add a law to an axis: docs/adding.md.
 #pragma once
 #include <array>
 
