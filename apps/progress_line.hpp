@@ -7,9 +7,8 @@
 
 namespace isostat {
 
-std::string clock_text(double seconds);
-std::string solid_fraction_text(
-    double phi);  // "  Phi 0.8123"; nothing without a cell  // 02:35, 3h07; --:-- if not known
+std::string clock_text(double seconds);       // 02:35, 3h07; --:-- if not known
+std::string solid_fraction_text(double phi);  // "  Phi 0.8123"; nothing without a cell
 
 class ProgressLine {
  public:
