@@ -44,6 +44,7 @@ inline constexpr std::array<std::string_view, 3> kFinishNames{"none", "drag", "n
 // What ends a stage.
 enum class Until { equilibrium, aggregated, time, strain, failure };
 inline constexpr std::array<std::string_view, 5> kUntilNames{"equilibrium", "aggregated", "time", "strain", "failure"};
+static_assert(kUntilNames.size() == static_cast<std::size_t>(Until::failure) + 1, "a name for each end, no more");
 constexpr std::string_view name(Until until) { return kUntilNames[static_cast<std::size_t>(until)]; }
 constexpr bool waits_for_equilibrium(Until until) { return until == Until::equilibrium || until == Until::aggregated; }
 
