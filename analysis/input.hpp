@@ -30,7 +30,7 @@ struct AnalysisInput {
   std::string path;
   State<Disks> state;                    // a network or foreign packing is a state without law
   std::optional<Packing<3>> packing_3d;  // a 3D network or foreign packing; `state` then has no grains
-  bool links_given = false;              // the file lists links (a state always does); false: grains alone
+  bool links_given = false;              // the file lists contacts (a state always does); false: found by touching
 
   const Packing<2>& packing() const { return state.packing; }
   // It comes from a run of the solver: knows its law, and is in reduced units. False for a foreign packing kept as .h5.

@@ -1,5 +1,7 @@
-// The systems that Isostat knows. To add one: its folder, a line here and in systems.cpp, a fixture in tests/systems.
-// A state of an unknown system stands only where files and commands meet one; everything else is told by template.
+// The systems that Isostat knows. To add one: its folder, its part of the scene (dem/scene/scene.hpp), a line here and
+// in systems.cpp, its instantiations in dem/files/state_file.cpp, its static solver in apps/sample_run.cpp, a fixture
+// in tests/systems. A state of an unknown system stands only where files and commands meet one; everything else is told
+// by template.
 #pragma once
 #include <cstdint>
 #include <string_view>

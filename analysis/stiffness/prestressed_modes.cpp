@@ -133,8 +133,7 @@ std::vector<std::vector<std::size_t>> linked_pieces(const Packing<2>& packing) {
 
 }  // namespace
 
-PrestressedModes prestressed_modes(const Packing<2>& packing, NetworkLaw network_law, const DiskLaw& law,
-                                   int count) {
+PrestressedModes prestressed_modes(const Packing<2>& packing, NetworkLaw network_law, const DiskLaw& law, int count) {
   const auto per_body = static_cast<std::size_t>(dof_layout(packing, network_law, false).per_body);
   const std::vector<double> mass = dof_masses(packing, network_law);
   const UnsymmetricMatrix whole = tangent_stiffness(packing, network_law, law);

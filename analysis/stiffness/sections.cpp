@@ -12,6 +12,7 @@
 #include "analysis/stiffness/pseudo_inverse.hpp"
 #include "analysis/stiffness/stiffness_matrix.hpp"
 #include "analysis/stiffness/vibration.hpp"
+#include "dem/disks/at_rest.hpp"
 
 namespace isostat {
 namespace {
@@ -23,7 +24,7 @@ Json stiffness_of(const DiskLaw& law) {
   return {{"normal", law.normal_stiffness},
           {"tangential", law.tangential_stiffness},
           {"rolling", law.rolling_stiffness},
-          {"distant", law.attraction_range > 0 ? Json(-law.attraction / law.attraction_range) : Json(nullptr)}};
+          {"distant", law.attraction_range > 0 ? Json(distant(law, 0).stiffness) : Json(nullptr)}};
 }
 
 std::string explain_floppy(const ExactRank& r) {

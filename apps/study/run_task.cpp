@@ -22,7 +22,7 @@ template <class System>
 RunRecord adopted(const State<System>& state) {
   RunRecord record = record_of(state);
   const bool all_stages = state.progress.stage == static_cast<std::int32_t>(state.scene.stages.size());
-  if (all_stages && (state.scene.stages.back().until == Until::time || record.certified)) {
+  if (all_stages && (!waits_for_equilibrium(state.scene.stages.back().until) || record.certified)) {
     record.status = RunStatus::ok;
   } else {
     record.status = RunStatus::unfinished;

@@ -21,7 +21,8 @@ std::string scene_documentation() {
   const Scene scene = scene_with_every_key();
   std::string text =
       "# Scene keys\n\n"
-      "Generated from the table in `dem/scene/keys.cpp`; run the tests with `ISOSTAT_REGENERATE=1` to write it "
+      "Generated from the table of keys (`dem/scene/keys.cpp`, `dem/disks/keys.cpp`); run the tests with "
+      "`ISOSTAT_REGENERATE=1` to write it "
       "anew.\n\n"
       "A scene is a TOML file. Every key has a default unless the table says otherwise; an unknown key is an error. On "
       "the command line, `--set KEY=VALUE` overrides a key with a TOML value (`0.5`, `true`, `'\"text\"'`); keys of "
