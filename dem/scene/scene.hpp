@@ -1,6 +1,6 @@
 // What the user asks for: a scene of materials, cell, numerics and stages. Plain data with defaults; every field has a
-// unit and a rule in the table of keys (dem/scene/keys.cpp, and keys.cpp of each system), where the documentation of the
-// keys comes from, too.
+// unit and a rule in the table of keys (dem/scene/keys.cpp, and keys.cpp of each system), where the documentation of
+// the keys comes from, too.
 //
 // Reduced units: a, m, F0; without cohesion the unit of force is a P, so a cohesionless scene has pressure = 1.
 #pragma once
