@@ -15,6 +15,10 @@ inline double end_rotation(const Vec2& carried, const Vec2& chord) {
   return std::atan2(chord[0] * carried[1] - chord[1] * carried[0], dot(chord, carried));
 }
 
+// The direction of the chord at rest in the frame of a body, whose rest angle is that of the frame against the chord:
+// turned with the body, its end_rotation() is T_a or T_b itself.
+inline Vec2 rest_direction(double rest_angle) { return {{std::cos(rest_angle), -std::sin(rest_angle)}}; }
+
 struct BeamForce {
   double normal, tangential, moment;  // N, T, M of the link
 };
@@ -41,6 +45,19 @@ struct BeamStiffness {
 inline BeamStiffness beam_stiffness(const Beam& beam, double length) {
   const double bend = beam.bending / beam.rest_length;
   return {beam.stiffness, 12 * bend / (length * length), bend};
+}
+
+// The dampers, Eqs. 50-53: N = -gamma dL/dt, end moments -(gamma I/L0) dT_a/dt and -(gamma I/L0) dT_b/dt with
+// I = (E I)/E. As printed they have moments without a couple of forces and turn an isolated pair; a beam is a link, so
+// its force across the chord, -(M_A + M_B)/L, comes with its lever arms and balances them. In the rows of the link the
+// dampers are then diagonal: (N, T, M) = -(c_N v_N, c_T v_T, c_R v_R), which takes energy at any velocities.
+// gamma [force per velocity].
+struct BeamDamping {
+  double normal, tangential, rolling;
+};
+inline BeamDamping beam_damping(const Beam& beam, double gamma, double length) {
+  const double bend = gamma * (beam.bending / beam.stiffness) / beam.rest_length;
+  return {gamma, 2 * bend / (length * length), bend / 2};
 }
 
 // The beam of a network that says no more than which bodies it joins: without load as it stands, with the default
