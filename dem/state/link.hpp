@@ -10,17 +10,9 @@
 #pragma once
 #include <cmath>
 
-namespace isostat {
+#include "geometry/base/mul_add.hpp"
 
-// a b + c; the kernels specialise it to a fused instruction where the machine has one.
-template <class Real>
-struct MulAdd {
-  static Real of(Real a, Real b, Real c) { return a * b + c; }
-};
-template <class Real>
-inline Real mul_add(Real a, Real b, Real c) {
-  return MulAdd<Real>::of(a, b, c);
-}
+namespace isostat {
 
 // The part of the frame that needs only the branch vector and R_i + R_j. The lever arms are proportional,
 // l_i = lever_ratio R_i with lever_ratio = |r_ij| / (R_i + R_j), not R_i: with the radii a rigid rotation of

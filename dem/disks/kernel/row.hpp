@@ -8,20 +8,10 @@
 // is.
 #pragma once
 #include <cstdint>
-#include <experimental/simd>
 
 #include "dem/disks/kernel/twin.hpp"
 #include "dem/state/link.hpp"
-#if defined(__AVX2__)
-#include <immintrin.h>
-#endif
-#if defined(__AVX512F__) && defined(__clang__)
-#include "dem/disks/kernel/lanes512.hpp"
-#endif
-
-// Always inlined: a copy emitted out of line by the translation unit of one instruction set could be the one that the
-// linker keeps for all of them.
-#define ISOSTAT_INLINE [[gnu::always_inline]] inline
+#include "geometry/base/lanes.hpp"
 
 namespace isostat::kernel {
 
@@ -47,17 +37,6 @@ template <class V>
 struct PairDifference {
   V x, y, u, v, surface_sum, spin, p, q;  // j minus i; surface_sum is R_i w_i + R_j w_j
 };
-
-namespace stdx = std::experimental;
-using Scalar = stdx::simd<double, stdx::simd_abi::scalar>;
-
-// x where the mask holds, else y.
-template <class Abi>
-ISOSTAT_INLINE stdx::simd<double, Abi> select(const stdx::simd_mask<double, Abi>& mask,
-                                              const stdx::simd<double, Abi>& x, stdx::simd<double, Abi> y) {
-  where(mask, y) = x;
-  return y;
-}
 
 ISOSTAT_INLINE PairDifference<Scalar> load_differences(const double* rows, const RowOffset* i, const RowOffset* j,
                                                        Scalar) {
@@ -90,12 +69,6 @@ ISOSTAT_INLINE void add_load_pair(double* loads, RowOffset i, RowOffset j, __m25
 #endif
 
 #if defined(__AVX512F__)
-#if defined(__clang__)
-using Native = Lanes512;
-#else
-using Native = stdx::simd<double, stdx::simd_abi::__avx512>;
-#endif
-
 ISOSTAT_INLINE PairDifference<Native> load_differences(const double* rows, const RowOffset* i, const RowOffset* j,
                                                        Native) {
   const __m512d sign = _mm512_setr_pd(-1, -1, -1, -1, 1, -1, -1, -1);
@@ -147,8 +120,6 @@ ISOSTAT_INLINE void add_loads(double* loads, const RowOffset* i, const RowOffset
 }
 
 #elif defined(__AVX2__)
-using Native = stdx::simd<double, stdx::simd_abi::__avx>;
-
 struct FourColumns {
   Native c0, c1, c2, c3;
 };
@@ -187,8 +158,6 @@ ISOSTAT_INLINE void add_loads(double* loads, const RowOffset* i, const RowOffset
   add_load_pair(loads, i[2], j[2], static_cast<__m256d>(f.c2));
   add_load_pair(loads, i[3], j[3], static_cast<__m256d>(f.c3));
 }
-#else
-using Native = Scalar;
 #endif
 
 // Two batches side by side.
@@ -210,22 +179,5 @@ ISOSTAT_INLINE void add_loads(double* loads, const RowOffset* i, const RowOffset
   add_loads(loads, i, j, fx.a, fy.a, a.a, b.a);
   add_loads(loads, i + V::size(), j + V::size(), fx.b, fy.b, a.b, b.b);
 }
-}  // namespace isostat::kernel
 
-#if defined(__AVX512F__)
-template <>
-struct isostat::MulAdd<isostat::kernel::Native> {
-  using V = isostat::kernel::Native;
-  ISOSTAT_INLINE static V of(V a, V b, V c) {
-    return V(_mm512_fmadd_pd(static_cast<__m512d>(a), static_cast<__m512d>(b), static_cast<__m512d>(c)));
-  }
-};
-#elif defined(__AVX2__)
-template <>
-struct isostat::MulAdd<isostat::kernel::Native> {
-  using V = isostat::kernel::Native;
-  ISOSTAT_INLINE static V of(V a, V b, V c) {
-    return V(_mm256_fmadd_pd(static_cast<__m256d>(a), static_cast<__m256d>(b), static_cast<__m256d>(c)));
-  }
-};
-#endif
+}  // namespace isostat::kernel

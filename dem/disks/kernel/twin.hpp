@@ -4,7 +4,7 @@
 #pragma once
 #include <experimental/simd>
 
-#include "dem/state/link.hpp"
+#include "geometry/base/mul_add.hpp"
 
 #define ISOSTAT_TWIN [[gnu::always_inline]] friend inline
 

@@ -58,6 +58,9 @@ class Lanes512 {
     [[gnu::always_inline]] void operator=(Lanes512 x) { y.v_ = _mm512_mask_blend_pd(mask.bits, y.v_, x.v_); }
   };
   ISOSTAT_LANES Where where(mask_type m, Lanes512& y) { return {m, y}; }
+  ISOSTAT_LANES Lanes512 select(mask_type m, Lanes512 x, Lanes512 y) {
+    return Lanes512(_mm512_mask_blend_pd(m.bits, y.v_, x.v_));
+  }
 
  private:
   __m512d v_;
