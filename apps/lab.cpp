@@ -15,6 +15,7 @@ int lab_command(int argc, char** argv) {
   };
   constexpr Experiment experiments[] = {
       {"pair", lab_pair}, {"cluster", lab_cluster}, {"throughput", lab_throughput}, {"grain", lab_grain}};
+      {"pair", lab_pair}, {"cluster", lab_cluster}, {"overlap", lab_overlap}, {"throughput", lab_throughput}};
   std::string list;
   for (const Experiment& e : experiments) {
     if (argc > 1 && e.name == argv[1]) return e.run(argc - 1, argv + 1);
