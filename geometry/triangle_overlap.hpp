@@ -4,8 +4,8 @@
 //
 // Signs are exact (triangle_signs.hpp), and they alone say which edges bound the overlap. Its corners are then computed
 // with twice the precision of double, or with rationals where the bound in triangle_overlap.cpp asks for it:
-//   area       relative error below 2^-52, whatever the pair, or one step of the subnormal numbers; exactly 0 for
-//              separate and touch
+//   area       relative error below 2^-52, whatever the pair (a subnormal area is one of the two doubles beside it);
+//              exactly 0 for separate and touch
 //   sides      each component rounded once from a value whose own error is below 2^-54 of the extent of the pair
 //   gradient   a few roundings of sums over the sides
 #pragma once

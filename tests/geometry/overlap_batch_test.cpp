@@ -89,7 +89,7 @@ Batch pairs_of(const std::vector<PairKind>& kinds, int count, int nudge) {
 TEST_P(OverlapBatchOn, area_is_right_for_every_pair) {
   for (const int nudge : {0, 1, 3}) {
     Batch batch = pairs_of({PairKind::random, PairKind::shallow, PairKind::lattice, PairKind::shared, PairKind::on_edge,
-                            PairKind::collinear, PairKind::identical},
+                            PairKind::collinear, PairKind::nested, PairKind::identical, PairKind::sliver},
                            7000, nudge);
     run(batch, GetParam());
     for (std::size_t n = 0; n < batch.pairs.size(); ++n) {
