@@ -14,120 +14,6 @@ namespace {
 using Rational = boost::multiprecision::cpp_rational;
 constexpr double kUnit = 0x1p-53;
 constexpr int next(int k) { return TriangleSigns::next(k); }
-constexpr int before(int k) { return k == 0 ? 2 : k - 1; }
-
-// --- what bounds the overlap, from signs alone
-
-// Degenerate pairs become generic by moving the edges of B outwards, edge 0 by more than edge 1, edge 1 by more than
-// edge 2, all by less than any number. Then corners of A on an edge's line are inside it. A corner of B on a line of A
-// moves with its two edges; the one that moves more decides: corner j goes along edge j - 1 when edge j moves, away
-// from corner j - 1. Directions stay, so parallel edges never cross.
-void perturb(TriangleSigns& s) {
-  for (auto& corner : s.of_a)
-    for (std::int8_t& sign : corner) sign = sign == 0 ? 1 : sign;
-  const auto given = s.of_b;
-  for (int j = 0; j < 3; ++j)
-    for (int e = 0; e < 3; ++e) {
-      if (given[idx(j)][idx(e)] != 0) continue;
-      const std::int8_t by_own = given[idx(before(j))][idx(e)], by_last = given[idx(next(j))][idx(e)];
-      const bool own_first = j < before(j);
-      const std::int8_t first = own_first ? by_own : by_last, second = own_first ? by_last : by_own;
-      s.of_b[idx(j)][idx(e)] = static_cast<std::int8_t>(first != 0 ? -first : -second);
-    }
-}
-
-// A corner of the overlap: corner a of A, corner b of B, or the crossing of edges a and b.
-struct Vertex {
-  OverlapSide::Start kind;
-  int a, b;
-  friend bool operator==(const Vertex&, const Vertex&) = default;
-};
-struct Side {
-  Owner owner;
-  int edge;
-  Vertex start;
-};
-struct Boundary {
-  std::array<Side, 6> side;
-  int count = 0;
-};
-
-// The part of one edge inside the other triangle, after perturb(): from its corner or where it enters, to the next
-// corner or where it leaves. Edge numbers of the crossings, -1: none.
-struct Portion {
-  int enters = -1, leaves = -1;
-  bool starts_inside = false;
-  bool exists() const { return starts_inside || enters >= 0; }
-};
-Portion portion(const TriangleSigns& s, Owner owner, int edge) {
-  const auto& of = owner == Owner::a ? s.of_a : s.of_b;
-  const auto& first = of[idx(edge)];
-  Portion p;
-  p.starts_inside = *std::min_element(first.begin(), first.end()) > 0;
-  for (int k = 0; k < 3; ++k)
-    if (owner == Owner::a ? s.cross(edge, k) : s.cross(k, edge)) (first[idx(k)] < 0 ? p.enters : p.leaves) = k;
-  return p;
-}
-
-Vertex crossing(Owner owner, int edge, int other) {
-  return owner == Owner::a ? Vertex{OverlapSide::Start::crossing, edge, other}
-                           : Vertex{OverlapSide::Start::crossing, other, edge};
-}
-
-// Around the overlap of a perturbed pair with common area.
-Boundary trace(const TriangleSigns& s) {
-  Owner owner = Owner::a;
-  int edge = -1;
-  for (int e = 0; e < 3 && edge < 0; ++e)
-    if (portion(s, Owner::a, e).enters >= 0) edge = e;
-  if (edge < 0) edge = 0, owner = portion(s, Owner::a, 0).exists() ? Owner::a : Owner::b;  // one inside the other
-  Boundary boundary;
-  const Owner first_owner = owner;
-  const int first_edge = edge;
-  do {
-    const Portion p = portion(s, owner, edge);
-    const auto corner = owner == Owner::a ? OverlapSide::Start::corner_a : OverlapSide::Start::corner_b;
-    const Vertex start = p.enters >= 0 ? crossing(owner, edge, p.enters) : Vertex{corner, edge, edge};
-    boundary.side[idx(boundary.count++)] = {owner, edge, start};
-    if (p.leaves >= 0)
-      owner = owner == Owner::a ? Owner::b : Owner::a, edge = p.leaves;
-    else
-      edge = next(edge);
-  } while ((owner != first_owner || edge != first_edge) && boundary.count < 6);
-  return boundary;
-}
-
-// One name for each point: a crossing at a corner is that corner, a corner of both is A's.
-Vertex canonical(const TriangleSigns& s, Vertex v) {
-  using Start = OverlapSide::Start;
-  if (v.kind == Start::crossing) {
-    const int e = v.a, f = v.b;
-    if (s.of_a[idx(e)][idx(f)] == 0) return {Start::corner_a, e, e};
-    if (s.of_a[idx(next(e))][idx(f)] == 0) return {Start::corner_a, next(e), next(e)};
-    if (s.of_b[idx(f)][idx(e)] == 0) v = {Start::corner_b, f, f};
-    if (s.of_b[idx(next(f))][idx(e)] == 0) v = {Start::corner_b, next(f), next(f)};
-  }
-  if (v.kind == Start::corner_b)
-    for (int i = 0; i < 3; ++i)
-      if (s.a.corner[idx(i)] == s.b.corner[idx(v.b)]) return {Start::corner_a, i, i};
-  return v;
-}
-
-Boundary boundary_of(const TriangleSigns& signs) {
-  if (signs.type != OverlapType::degenerate) return trace(signs);
-  TriangleSigns generic = signs;
-  perturb(generic);
-  const Boundary all = trace(generic);
-  std::array<Vertex, 6> vertex;
-  for (int k = 0; k < all.count; ++k) vertex[idx(k)] = canonical(signs, all.side[idx(k)].start);
-  Boundary kept;
-  for (int k = 0; k < all.count; ++k)
-    if (vertex[idx(k)] != vertex[idx(k + 1 == all.count ? 0 : k + 1)])
-      kept.side[idx(kept.count++)] = {all.side[idx(k)].owner, all.side[idx(k)].edge, vertex[idx(k)]};
-  return kept;
-}
-
-// --- how large it is
 
 double to_double(const DoubleDouble& x) { return x.hi; }
 
@@ -169,7 +55,7 @@ struct Polygon {
 };
 
 template <class Real>
-Polygon<Real> polygon(const TriangleSigns& s, const Boundary& boundary) {
+Polygon<Real> polygon(const TriangleSigns& s, const OverlapBoundary& boundary) {
   Polygon<Real> p;
   const Vec2& o = s.a.corner[0];
   const auto relative = [&](const Vec2& c) {
@@ -178,11 +64,11 @@ Polygon<Real> polygon(const TriangleSigns& s, const Boundary& boundary) {
   for (int k = 0; k < 3; ++k) p.a[idx(k)] = relative(s.a.corner[idx(k)]), p.b[idx(k)] = relative(s.b.corner[idx(k)]);
   p.count = boundary.count;
   for (int k = 0; k < p.count; ++k) {
-    const Vertex& v = boundary.side[idx(k)].start;
+    const OverlapCorner& v = boundary.side[idx(k)].start;
     Point<Real>& at = p.vertex[idx(k)];
-    if (v.kind == OverlapSide::Start::corner_a) {
+    if (v.kind == CornerKind::corner_a) {
       at = p.a[idx(v.a)];
-    } else if (v.kind == OverlapSide::Start::corner_b) {
+    } else if (v.kind == CornerKind::corner_b) {
       at = p.b[idx(v.b)];
     } else {
       const Point<Real>& start = p.a[idx(v.a)];
@@ -224,7 +110,7 @@ PolygonError error_bound(const Polygon<DoubleDouble>& p) {
 }
 
 template <class Real>
-void measure(TriangleOverlap& out, const TriangleSigns& s, const Boundary& boundary, const Polygon<Real>& p) {
+void measure(TriangleOverlap& out, const TriangleSigns& s, const OverlapBoundary& boundary, const Polygon<Real>& p) {
   const auto label = [](int k, bool turned, bool edge) {  // in the caller's numbers
     constexpr std::uint8_t edges[] = {2, 1, 0}, corners[] = {0, 2, 1};
     return !turned ? static_cast<std::uint8_t>(k) : edge ? edges[k] : corners[k];
@@ -232,8 +118,8 @@ void measure(TriangleOverlap& out, const TriangleSigns& s, const Boundary& bound
   out.area = to_double(p.twice_area) / 2;
   out.side_count = p.count;
   for (int k = 0; k < p.count; ++k) {
-    const Side& side = boundary.side[idx(k)];
-    const bool at_crossing = side.start.kind == OverlapSide::Start::crossing;
+    const OverlapEdge& side = boundary.side[idx(k)];
+    const bool at_crossing = side.start.kind == CornerKind::crossing;
     out.side_store[idx(k)] = {.owner = side.owner,
                               .edge = label(side.edge, side.owner == Owner::a ? s.a_turned : s.b_turned, true),
                               .start_kind = side.start.kind,
@@ -248,7 +134,7 @@ void measure(TriangleOverlap& out, const TriangleSigns& s, const Boundary& bound
   };
   if (s.type == OverlapType::i || s.type == OverlapType::ii) {
     for (int k = 1; k < p.count; ++k)
-      if (boundary.side[idx(k)].start.kind == OverlapSide::Start::crossing) add_chord(0, k);
+      if (boundary.side[idx(k)].start.kind == CornerKind::crossing) add_chord(0, k);
   } else if (s.type == OverlapType::iii) {
     add_chord(0, 1), add_chord(0, 3);
   }
@@ -281,7 +167,7 @@ TriangleOverlap triangle_overlap(const Triangle& a, const Triangle& b) {
   TriangleOverlap out;
   out.type = signs.type, out.origin = a.corner[0];
   if (out.type == OverlapType::separate || out.type == OverlapType::touch) return out;
-  const Boundary boundary = boundary_of(signs);
+  const OverlapBoundary boundary = overlap_boundary(signs);
   const auto p = polygon<DoubleDouble>(signs, boundary);
   const PolygonError error = error_bound(p);
   if (error.area <= kUnit / 8 * p.twice_area.hi)

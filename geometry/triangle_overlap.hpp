@@ -13,23 +13,19 @@
 #include <cstdint>
 #include <span>
 
-#include "geometry/triangle_signs.hpp"
+#include "geometry/overlap_boundary.hpp"
 
 namespace isostat {
 
-enum class Owner : std::uint8_t { a, b };
-
 // One side of the overlap, with the overlap on its left.
 struct OverlapSide {
-  // Where it starts: a corner of A or of B, or a crossing of edges.
-  enum class Start : std::uint8_t { corner_a, corner_b, crossing };
-  Owner owner = Owner::a;  // the triangle whose boundary it lies on; A's where both have it
-  std::uint8_t edge = 0;   // of the owner, as numbered by the caller
-  Start start_kind = Start::corner_a;
-  std::uint8_t start_a = 0;  // corner of A; of a crossing: edge of A
-  std::uint8_t start_b = 0;  // corner of B; of a crossing: edge of B
-  Vec2 start;                // relative to TriangleOverlap::origin
-  Vec2 along;                // to the start of the next side
+  Owner owner = Owner::a;                        // the triangle whose boundary it lies on; A's where both have it
+  std::uint8_t edge = 0;                         // of the owner, as numbered by the caller
+  CornerKind start_kind = CornerKind::corner_a;  // where it starts: a corner of A or of B, or a crossing
+  std::uint8_t start_a = 0;                      // corner of A; of a crossing: edge of A
+  std::uint8_t start_b = 0;                      // corner of B; of a crossing: edge of B
+  Vec2 start;                                    // relative to TriangleOverlap::origin
+  Vec2 along;                                    // to the start of the next side
 };
 
 // Straight line between two crossings S1, S2: the paper's contact line (Figs. 3-5).
@@ -41,7 +37,7 @@ struct OverlapChord {
 
 // d(area)/d(displacement) and d(area)/d(angle about the centroid) of one triangle, the other at rest. With n the
 // outward normal: sum over the triangle's own sides of |along| n, and of (midpoint - centroid) x |along| n. The
-// overlap's force is minus the pressure times this. One-sided where a corner lies on an edge.
+// overlap's force is minus the pressure times this. Where edges coincide it is that of the sides as listed: one-sided.
 struct OverlapGradient {
   Vec2 translation;     // [length]
   double rotation = 0;  // [length^2], per radian, anticlockwise

@@ -200,12 +200,12 @@ TEST(TriangleOverlap, numbers_sides_and_corners_as_the_caller_does) {
   const OverlapSide &first = o.sides()[0], &second = o.sides()[1], &third = o.sides()[2];
   EXPECT_EQ(first.owner, Owner::a);
   EXPECT_EQ(first.edge, 1);
-  EXPECT_EQ(first.start_kind, OverlapSide::Start::crossing);
+  EXPECT_EQ(first.start_kind, CornerKind::crossing);
   EXPECT_EQ(first.start_a, 1);
   EXPECT_EQ(first.start_b, 1);  // (4, 3)-(1, 1)
   EXPECT_EQ(second.owner, Owner::b);
   EXPECT_EQ(second.edge, 2);
-  EXPECT_EQ(third.start_kind, OverlapSide::Start::corner_b);
+  EXPECT_EQ(third.start_kind, CornerKind::corner_b);
   EXPECT_EQ(third.start_b, 2);
   EXPECT_EQ(third.edge, 1);
   EXPECT_EQ(third.start, (Vec2{1, 1}));
