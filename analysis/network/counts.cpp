@@ -6,21 +6,12 @@
 
 #include "analysis/network/coordination.hpp"
 #include "analysis/network/sections.hpp"
+#include "dem/state/solid_fraction.hpp"
 
 namespace isostat {
 namespace {
 
 constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();  // written as null
-
-// Sum of the grains' measures over the cell's, overlaps not subtracted; undefined without a cell.
-template <int D>
-double solid_fraction(const Packing<D>& packing) {
-  if (!packing.cell) return kUndefined;
-  double sum = 0;
-  for (const double r : packing.bodies.radius)
-    sum += D == 2 ? std::numbers::pi * r * r : 4.0 / 3.0 * std::numbers::pi * r * r * r;
-  return sum / packing.cell->measure();
-}
 
 // Gilabert 2007, Eq. 14 (Campbell): the 3D solid fraction that corresponds to one of disks.
 double corresponding_solid_fraction_3d(double phi) {
@@ -53,7 +44,7 @@ nlohmann::ordered_json counts_of(const Packing<D>& packing, const ForceReading& 
   json["unloaded_contacts"] = c.unloaded;
   if (c.beams > 0) json["beams"] = c.beams;
   json["rattlers"] = c.rattlers;
-  const double phi = solid_fraction(packing);
+  const double phi = solid_fraction(packing.bodies, packing.cell);
   json["solid_fraction"] = phi;
   json["solid_fraction_3d"] = D == 2 ? corresponding_solid_fraction_3d(phi) : phi;
   json["z"] = 2.0 * static_cast<double>(c.contacts + c.distant) / static_cast<double>(grains);

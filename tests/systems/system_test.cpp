@@ -15,10 +15,7 @@ namespace isostat::systems {
 namespace {
 
 template <class System>
-class EverySystem : public ::testing::Test {
- protected:
-  using Its = Fixture<System>;
-};
+class EverySystem : public ::testing::Test {};
 TYPED_TEST_SUITE(EverySystem, Systems);
 
 TYPED_TEST(EverySystem, HasTheSameBitsForAnyNumberOfThreads) {
