@@ -61,6 +61,10 @@ void agitate(State<Disks>& s, const StageScene& stage) {
   s.ledger.injected += after - before;
 }
 
+bool event_met(const State<Disks>&, const StageScene&) { return false; }
+
+std::string event_missing(const State<Disks>&, const StageScene&) { return "no such event among disks"; }
+
 bool law_changes(const State<Disks>& s, const StageScene& stage) {
   return stage.normal_stiffness && s.law.normal_stiffness != *stage.normal_stiffness;
 }

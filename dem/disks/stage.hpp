@@ -1,6 +1,8 @@
 // What a stage asks of disks beyond what all systems share (dem/run/stage_run.hpp): their time step, drawn velocities,
 // contacts that are stiffened.
 #pragma once
+#include <string>
+
 #include "dem/disks/disks.hpp"
 
 namespace isostat {
@@ -17,5 +19,9 @@ void agitate(State<Disks>& state, const StageScene& stage);
 // was when the stage began.
 bool law_changes(const State<Disks>& state, const StageScene& stage);
 DiskLaw law_at(const State<Disks>& state, const StageScene& stage, double time);
+
+// The ends that are events of the surroundings, and what is missing for them.
+bool event_met(const State<Disks>& state, const StageScene& stage);
+std::string event_missing(const State<Disks>& state, const StageScene& stage);
 
 }  // namespace isostat

@@ -60,8 +60,9 @@ void transfer_certificate(Io& io, Certificate& certificate) {
 
 template <class Io, class System>
 void transfer(Io& io, State<System>& state) {
-  auto& [packing, law, time, step, time_step, cell_motion, imposed_stress, memory, progress, ledger, certificate, scene,
-         seed, random_counter] = state;
+  auto& [packing, law, time, step, time_step, cell_motion, imposed_stress, memory, progress, surroundings, ledger,
+         certificate, scene, seed, random_counter] = state;
+  static_cast<void>(surroundings);  // stored from format 4 on
   io.value("/run", "time", time);
   io.value("/run", "step", step);
   io.value("/run", "time_step", time_step);

@@ -32,6 +32,10 @@ class StageEnd {
         return strain() >= stage_.strain;
       case Until::failure:
         return failed();
+      case Until::empty:
+      case Until::clogged:
+      case Until::separated:
+        return event_met(s_, stage_);
     }
     return false;
   }
@@ -43,6 +47,10 @@ class StageEnd {
         return "the strain is " + std::to_string(strain());
       case Until::failure:
         return "the peak stress has not dropped by stage.drop";
+      case Until::empty:
+      case Until::clogged:
+      case Until::separated:
+        return event_missing(s_, stage_);
       case Until::time:
       case Until::equilibrium:
       case Until::aggregated:

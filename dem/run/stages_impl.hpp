@@ -1,5 +1,6 @@
 // run_stages<System> written out; included where a system instantiates it. Of the system it wants, beside its types:
-// prepare_stage, agitate, law_changes, law_at (dem/disks/run.cpp), evaluate_certificate, loaded_contacts.
+// prepare_stage, agitate, law_changes, law_at (dem/disks/run.cpp), evaluate_certificate, loaded_contacts, event_met,
+// event_missing.
 #pragma once
 #include "dem/input_error.hpp"
 #include "dem/run/stage_run.hpp"

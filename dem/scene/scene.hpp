@@ -13,12 +13,23 @@
 #include <vector>
 
 #include "dem/disks/scene.hpp"
+#include "dem/scene/surroundings.hpp"
+#include "dem/triangles/scene.hpp"
 
 namespace isostat {
 
-// [step]: dt = fraction * sqrt(m_max / K_N).
+// Which system a scene is of: the key `system`, disks where it is absent.
+enum class SceneSystem { disks, triangles };
+inline constexpr std::array<std::string_view, 2> kSystemNames{"disks", "triangles"};
+constexpr std::string_view name(SceneSystem system) { return kSystemNames[static_cast<std::size_t>(system)]; }
+
+enum class Integrator { verlet, gear };
+inline constexpr std::array<std::string_view, 2> kIntegratorNames{"verlet", "gear"};
+
+// [step]: of disks dt = fraction * sqrt(m_max / K_N), of triangles dt = fraction / omega_max of the smallest grain.
 struct StepScene {
   double fraction = 0.06;  // c [-]
+  Integrator integrator = Integrator::verlet;
   friend bool operator==(const StepScene&, const StepScene&) = default;
 };
 
@@ -43,9 +54,10 @@ enum class Finish { none, drag, newton };
 inline constexpr std::array<std::string_view, 3> kFinishNames{"none", "drag", "newton"};
 
 // What ends a stage.
-enum class Until { equilibrium, aggregated, time, strain, failure };
-inline constexpr std::array<std::string_view, 5> kUntilNames{"equilibrium", "aggregated", "time", "strain", "failure"};
-static_assert(kUntilNames.size() == static_cast<std::size_t>(Until::failure) + 1, "a name for each end, no more");
+enum class Until { equilibrium, aggregated, time, strain, failure, empty, clogged, separated };
+inline constexpr std::array<std::string_view, 8> kUntilNames{"equilibrium", "aggregated", "time",    "strain",
+                                                             "failure",     "empty",      "clogged", "separated"};
+static_assert(kUntilNames.size() == static_cast<std::size_t>(Until::separated) + 1, "a name for each end, no more");
 constexpr std::string_view name(Until until) { return kUntilNames[static_cast<std::size_t>(until)]; }
 constexpr bool waits_for_equilibrium(Until until) { return until == Until::equilibrium || until == Until::aggregated; }
 
@@ -80,6 +92,7 @@ struct StageScene {
   double strain = 0.0;        // [-] |1 - L/L0| of a driven direction that ends the stage
   double drop = 0.5;          // [-] part of the peak stress whose loss is failure
   double max_time = 20000.0;  // [T0] give up (exit code 3) after so long
+  ContainerMotionScene container;
   // Strain rates other than 0: of a driven cell.
   bool driven(int direction) const { return (direction == 0 ? strain_rate_1 : strain_rate_2).value_or(0) != 0; }
   friend bool operator==(const StageScene&, const StageScene&) = default;
@@ -108,9 +121,14 @@ struct OutputScene {
 };
 
 struct Scene {
+  SceneSystem system = SceneSystem::disks;
   std::uint64_t seed = 1;
-  GrainsScene grains;
+  GrainsScene grains;                   // of disks
+  TriangleGrainsScene triangle_grains;  // of triangles
   LawScene law;
+  TriangleLawScene triangle_law;
+  double gravity = 0;  // weight per mass, along -y
+  ContainerScene container;
   StepScene step;
   CellScene cell;
   EquilibriumScene equilibrium;

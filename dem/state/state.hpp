@@ -41,6 +41,17 @@ struct StageProgress {
   bool drifting = false;          // static solves have silenced the vibrations, but not what floppy modes still do
 };
 
+// Where the container stands and what has left it.
+struct Surroundings {
+  Vec2 start_offset{};           // of the container against where it was built, when the current stage began
+  double start_angle = 0;        // [rad] its turn then
+  bool open = false;             // the outlet has been opened
+  std::int64_t grains_left = 0;  // taken away below the outlet
+  double mass_left = 0;          // of these
+  double last_left = 0;          // [T0] when the last one was taken away
+  friend bool operator==(const Surroundings&, const Surroundings&) = default;
+};
+
 // A system is a type with four members, Packing, Law, Memory and Engine, in a folder of its own (dem/systems.hpp).
 template <class System>
 struct State {
@@ -53,6 +64,7 @@ struct State {
   ImposedStress imposed_stress;    // of the current or last stage
   typename System::Memory memory;  // empty: no solver has touched the packing
   StageProgress progress;
+  Surroundings surroundings;
   EnergyLedger ledger;
   Certificate certificate;
   Scene scene;  // resolved scene: what was asked, --set applied
