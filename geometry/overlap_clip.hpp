@@ -26,6 +26,7 @@ struct TriangleLanes {
 template <class V>
 struct OverlapLanes {
   V area, gradient_x, gradient_y, rotation_a, rotation_b, chord;
+  V point_x, point_y;  // mean of the boundary, inside the overlap; relative to corner 0 of A
 };
 
 template <class V>
@@ -147,7 +148,9 @@ ISOSTAT_INLINE OverlapLanes<V> overlap_lanes(const TriangleLanes<V>& a, const Tr
           -sum_x,
           -(moment + dot_lanes(arm_ax, arm_ay, sum_x, sum_y)),
           moment + dot_lanes(arm_bx, arm_by, sum_x, sum_y),
-          sqrt(dot_lanes(sum_x, sum_y, sum_x, sum_y))};
+          sqrt(dot_lanes(sum_x, sum_y, sum_x, sum_y)),
+          mx,
+          my};
 }
 
 }  // namespace isostat::kernel

@@ -67,6 +67,9 @@ class NeighbourLists {
     outer_travel_ += pair_displacement;
     if (!(inner_travel_ <= inner_skin_)) rebuild(bodies, cell, pair_displacement);
   }
+  // Whether update() would rebuild: for who must prepare the bodies.
+  bool outgrown(double pair_displacement) const { return !(inner_travel_ + pair_displacement <= inner_skin_); }
+  double inner_skin() const { return inner_skin_; }  // [a] within which listed pairs are
 
   Columns& columns() { return columns_; }
   const Columns& columns() const { return columns_; }
