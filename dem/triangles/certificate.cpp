@@ -71,9 +71,10 @@ std::vector<BodyLoad> net_loads(const TrianglePacking& p, const TriangleLaw& law
   return loads;
 }
 
-StressTensor measured_stress(const TrianglePacking& p, const TriangleLaw& law) {
+StressTensor measured_stress(const State<TriangleGrains>& state) {
+  const TrianglePacking& p = state.packing;
   StressTensor s;
-  net_loads(p, law, 0, &s);
+  net_loads(p, state.law, 0, &s);
   add_kinetic(s, p.bodies);
   const double area = p.cell.value().measure();
   return {s.xx / area, s.xy / area, s.yx / area, s.yy / area};
@@ -139,11 +140,11 @@ std::size_t count_free(const TrianglePacking& p) {
   return static_cast<std::size_t>(std::count(p.grains.part.begin(), p.grains.part.end(), GrainPart::free));
 }
 
-double solid_fraction(const TrianglePacking& p) {
-  if (!p.cell) return std::numeric_limits<double>::quiet_NaN();
+double solid_fraction(const TrianglePacking& p, const std::optional<PeriodicCell<2>>& cell) {
+  if (!cell) return std::numeric_limits<double>::quiet_NaN();
   double area = 0;
   for (std::size_t k = 0; k < p.bodies.size(); ++k) area += triangle_area(p, k);
-  return area / p.cell->measure();
+  return area / cell->measure();
 }
 
 std::size_t count_clusters(const TrianglePacking& p) {

@@ -17,7 +17,7 @@ double force_scale(const TrianglePacking& packing, const ImposedStress& imposed,
 std::vector<BodyLoad> net_loads(const TrianglePacking& packing, const TriangleLaw& law, double gravity,
                                 StressTensor* virial = nullptr);
 // sigma_ab of beams, overlaps and motion, compression positive [g/s^2]; needs a cell.
-StressTensor measured_stress(const TrianglePacking& packing, const TriangleLaw& law);
+StressTensor measured_stress(const State<TriangleGrains>& state);
 
 Certificate evaluate_certificate(const TrianglePacking& packing, const TriangleLaw& law, const ImposedStress& imposed,
                                  const EquilibriumScene& tolerance, double gravity = 0);
@@ -28,7 +28,7 @@ std::size_t loaded_contacts(const State<TriangleGrains>& state);
 // Of the grains as the stage runner asks (dem/run/): free ones, area over that of the cell, connected ones, the set of
 // overlapping pairs as a number.
 std::size_t count_free(const TrianglePacking& packing);
-double solid_fraction(const TrianglePacking& packing);
+double solid_fraction(const TrianglePacking& packing, const std::optional<PeriodicCell<2>>& cell);
 std::size_t count_clusters(const TrianglePacking& packing);
 std::uint64_t contact_set(const TrianglePacking& packing);
 

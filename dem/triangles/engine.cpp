@@ -108,7 +108,9 @@ void TriangleEngine::restore_lists(const State<TriangleGrains>& state) {
   candidates_.set_offsets(cell_);
 }
 
+// Rows are a function of positions and angles alone, whatever wrapping did to them: a restart has no others.
 void TriangleEngine::mark_built() {
+  kernels_.corners(0, store_.slots(), store_.arrays());
   store_[Store::built_x] = store_[Store::x], store_[Store::built_y] = store_[Store::y];
   store_[Store::built_angle] = store_[Store::angle];
 }

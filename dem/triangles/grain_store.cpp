@@ -127,7 +127,7 @@ void GrainStore::lay_out() {
   }
 }
 
-// Lanes without a grain copy the block's first one, weightless and at rest for ever.
+// Lanes without a grain have the shape of the block's first one, without weight, mass and stiffness: they add zeros.
 void GrainStore::fill_padding() {
   for (const GrainBlock& block : blocks_)
     for (std::size_t l = 1; l < kernel_lanes; ++l) {
@@ -140,7 +140,7 @@ void GrainStore::fill_padding() {
       }
       for (std::size_t b = 0; b < block.beams; ++b) {
         const std::size_t from = block.beam_begin + kernel_lanes * b;
-        for (auto& c : beam_column_) c[from + l] = c[from];
+        for (const BeamColumn c : {length, xi, yi, xj, yj}) beam_column_[c][from + l] = beam_column_[c][from];
       }
     }
 }

@@ -16,8 +16,8 @@ std::vector<SeriesColumn> series_columns(const State<TriangleGrains>& s, bool wi
     columns.insert(columns.end(), more.begin(), more.end());
   };
   if (p.cell) {
-    const StressTensor stress = measured_stress(p, s.law);
-    add({{"Phi", solid_fraction(p)},
+    const StressTensor stress = measured_stress(s);
+    add({{"Phi", solid_fraction(p, p.cell)},
          {"L1", p.cell->length[0]},
          {"L2", p.cell->length[1]},
          {"sigma11", stress.xx},
