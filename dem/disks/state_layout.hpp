@@ -61,7 +61,8 @@ void transfer_pairs(Io& io, const std::string& group, PairTable& c) {
 
 template <class Io>
 void transfer_packing(Io& io, Packing<2>& packing) {
-  auto& [cell, bodies, links, beams] = packing;
+  auto& [cell, bodies, links, beams, part] = packing;
+  static_cast<void>(part);
   static_cast<void>(beams);  // refused by state_fault(): no run has them yet
   auto& [id, position, velocity, spin, radius, mass, inertia] = bodies;
   const std::string grains = "/particles/grains";
@@ -98,7 +99,8 @@ void transfer_packing(Io& io, Packing<2>& packing) {
 
 template <class Io>
 void transfer_memory(Io& io, DiskMemory& memory) {
-  auto& [half_velocity, half_spin, force, torque, pairs, lists] = memory;
+  auto& [half_velocity, half_spin, force, torque, pairs, lists, wall_position] = memory;
+  static_cast<void>(wall_position);
   auto& [outer_position, inner_position, outer_length, inner_length, outer_skin, inner_skin, outer_travel,
          inner_travel] = lists;
   const auto column = [&](const std::string& name, auto& values, const char* unit) {
