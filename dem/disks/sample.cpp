@@ -169,6 +169,8 @@ struct Room {
   }
 };
 
+constexpr double kRoomAtLeast = 8;  // [largest diameter^2] of a container: for a few grains
+
 // area [a^2] of the room.
 Room room_of(const Scene& scene, double area) {
   const ContainerScene& c = scene.container;
@@ -181,8 +183,9 @@ Room room_of(const Scene& scene, double area) {
     throw InputError("scene", 0, "container", "",
                      "too small for the grains: at grains.solid_fraction = " + real_text(scene.grains.solid_fraction) +
                          " they take an area of " + real_text(area) + " a^2, it has " + real_text(has));
-  const double half = half_width(c);
-  return {{{{-half, bottom}}, {{2 * half, height_of_area(c, area) - bottom}}, false}, &scene.container};
+  const double half = half_width(c), diameter = scene.grains.diameter_max;
+  const double top = height_of_area(c, std::max(area, kRoomAtLeast * diameter * diameter));
+  return {{{{-half, bottom}}, {{2 * half, top - bottom}}, false}, &scene.container};
 }
 
 }  // namespace

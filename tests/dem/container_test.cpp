@@ -137,7 +137,7 @@ void expect_walls_in_place(const State<Disks>& s, std::size_t walls) {
 }
 
 TEST(DrivenWalls, FollowTheirContainerThroughAllStages) {
-  Scene scene = scene_of(ContainerShape::drum, 80);
+  Scene scene = scene_of(ContainerShape::drum, 50);
   StageScene turn = timed(4), shake = timed(2.3);
   turn.container.rotation = 0.2;
   shake.container.vibration_amplitude = 0.1, shake.container.vibration_frequency = 0.7;
@@ -162,7 +162,7 @@ TEST(DrivenWalls, FollowTheirContainerThroughAllStages) {
 
 // Its wall of disks grips: the bed is carried up on the side that rises until it is inclined.
 TEST(DrivenWalls, ADrumOfDisksGripsItsBed) {
-  Scene scene = scene_of(ContainerShape::drum, 60);
+  Scene scene = scene_of(ContainerShape::drum, 50);
   StageScene turn = timed(30);
   turn.container.rotation = 0.05;
   scene.stages = {timed(40), turn};
@@ -186,6 +186,7 @@ TEST(DrivenWalls, ADrumOfDisksGripsItsBed) {
 
 TEST(Hopper, KeepsItsGrainsUntilItIsOpened) {
   Scene scene = scene_of(ContainerShape::hopper, 60);
+  scene.container.opening = 5;
   scene.stages = {timed(20), outflow(Until::empty)};
   State<Disks> s = initial_disks(scene, 2);
   const std::size_t lids = count(s, GrainPart::lid), walls = count(s, GrainPart::wall);
@@ -250,7 +251,7 @@ TEST(Hopper, ClogsOrEmpties) {
 // between them, ends as the straight one does; so does one of two threads.
 TEST(Hopper, AnInterruptedRunGoesOnAsIfItHadNotBeen) {
   Scene scene = scene_of(ContainerShape::hopper, 60);
-  StageScene open = timed(25);
+  StageScene open = timed(4);
   open.container = outflow(Until::empty).container;
   open.container.vibration_amplitude = 0.05, open.container.vibration_frequency = 0.9;
   scene.stages = {timed(8), open, timed(3)};
