@@ -12,7 +12,7 @@ constexpr FileUnits file_units(Disks) { return {"a", "T0"}; }
 
 template <class Io>
 void transfer_packing(Io& io, Packing<2>& packing) {
-  auto& [cell, bodies, links, beams] = packing;
+  auto& [cell, bodies, links, beams, part] = packing;
   static_cast<void>(beams);  // refused by state_fault(): no run has them yet
   auto& [id, position, velocity, spin, radius, mass, inertia] = bodies;
   const std::string grains = "/particles/grains";
@@ -25,6 +25,7 @@ void transfer_packing(Io& io, Packing<2>& packing) {
   io.array(grains + "/radius", radius, n, "a");
   io.array(grains + "/mass", mass, n, "m");
   io.array(grains + "/inertia", inertia, n, "m a+2");
+  if (io.since(4)) transfer_codes(io, grains + "/part", part, io.count(grains + "/part", part.size()));
 
   const auto members = [](Link<2>& link) {
     auto& [i, j, shift, kind, beam, gap, normal_force, tangential_force, moment] = link;
@@ -44,11 +45,12 @@ void transfer_packing(Io& io, Packing<2>& packing) {
 
 template <class Io>
 void transfer_memory(Io& io, DiskMemory& memory) {
-  auto& [half_velocity, half_spin, force, torque, pairs, lists] = memory;
+  auto& [half_velocity, half_spin, force, torque, pairs, lists, wall_position] = memory;
   transfer_memory_array(io, "half_velocity", half_velocity, "a T0-1");
   transfer_memory_array(io, "half_spin", half_spin, "T0-1");
   transfer_memory_array(io, "force", force, "F0");
   transfer_memory_array(io, "torque", torque, "F0 a");
+  if (io.since(4)) transfer_memory_array(io, "wall_position", wall_position, "a");
   const auto members = [](PairMemory<DiskHistory>& pair) {
     auto& [i, j, shift, history] = pair;
     auto& [tangential_force, moment] = history;

@@ -9,7 +9,8 @@
 //
 // The lists see positions and radii. What a listed pair carries is a type Columns:
 //   Columns::Bodies    the bodies' store: size(), position(k), radius(k), id[k], place(k, r), reorder(to),
-//                      static pad(n, k) of kPads padding pairs
+//                      static pad(n, k) of kPads padding pairs; if there are bodies that never interact with each
+//                      other whatever they do, inert(i, j)
 //   Columns::History   what a pair keeps from step to step; History{} is none
 //   kStride            kernels name body k by kStride k
 //   resize(n), fill(k, bodies, i, j), history(k), remember(k, history), static turned(history)

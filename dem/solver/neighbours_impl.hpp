@@ -194,6 +194,8 @@ void NeighbourLists<Columns>::find_outer(const Bodies& bodies) {
           const double dx = outer_position_[j][0] + offset[0] - ri[0], dy = outer_position_[j][1] + offset[1] - ri[1];
           const double reach = reach_i + bodies.radius(j);
           if (dx * dx + dy * dy > reach * reach) continue;
+          if constexpr (requires { bodies.inert(i, j); })
+            if (bodies.inert(i, j)) continue;
           outer_i_.push_back(static_cast<std::int32_t>(i));
           outer_j_.push_back(static_cast<std::int32_t>(j));
           outer_shift_.push_back(image_code(shift));

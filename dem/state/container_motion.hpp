@@ -29,6 +29,21 @@ Vec2 velocity_at(const ContainerPlacement& placement, const Vec2& r);  // of the
 // The point r of a placement, where it was built: the inverse of point_at.
 Vec2 built_at(const ContainerPlacement& placement, const Vec2& r);
 
+// Where the container of a state stands at its time.
+template <class System>
+ContainerPlacement container_of(const State<System>& s) {
+  const auto stage = static_cast<std::size_t>(s.progress.stage);
+  const bool runs = s.progress.started && stage < s.scene.stages.size();
+  return container_at(runs ? s.scene.stages[stage].container : ContainerMotionScene{}, s.surroundings,
+                      s.time - s.progress.start_time);
+}
+
+// y of the outlet of a hopper, the container's origin.
+template <class System>
+double outlet_height(const State<System>& s) {
+  return container_of(s).offset[1];
+}
+
 // The next stage begins where this one left the container, at rest.
 void bring_forward(Surroundings& surroundings, const ContainerMotionScene& motion, double time_in_stage);
 
