@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "dem/disks/disks.hpp"
+#include "dem/triangles/triangles.hpp"
 
 namespace isostat {
 
