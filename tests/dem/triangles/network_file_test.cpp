@@ -90,7 +90,7 @@ TEST(TriangleNetwork, APeriodicGrainMeetsItsImageAndIsBroughtTogether) {
 TEST(TriangleNetwork, ConcaveGrainsCanHaveTwoOverlaps) {
   // A bow of four triangles in a chain; a bar crosses the first and the last, which are no neighbours.
   const std::string bracket =
-      "triangle 1 1 0 0 1 0 0 1\ntriangle 2 1 0 0 1 0 2 -1\ntriangle 3 1 1 0 2 -1 4 0\ntriangle 4 1 2 -1 4 0 5 1\n";
+      "triangle 1 1 0 0 1 0 0 1\ntriangle 2 1 0 0 1 0 2 -1\ntriangle 3 1 1 0 2 -1 4 0\ntriangle 4 1 1 0 4 0 5 1\n";
   const std::string bar = "triangle 9 2 -2 .25 7 .25 -2 .5\n";
   EXPECT_EQ(parse_triangle_network(bracket + bar, "t.net").packing.overlaps.size(), 2u);
   // Two pieces through triangles that share an edge are one overlap, though the polygons be apart.
