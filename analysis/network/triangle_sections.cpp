@@ -54,7 +54,7 @@ Json triangle_counts(const AnalysisInput& input) {
     pairs += static_cast<std::int64_t>(a.pairs.size());
   }
   const auto contacts = static_cast<std::int64_t>(input.triangle_links.areas.size());
-  const double phi = solid_fraction(p);
+  const double phi = solid_fraction(p, p.cell);
   Json json;
   json["grains"] = grains;
   json["triangles"] = triangles;
@@ -109,7 +109,7 @@ Json triangle_equilibrium(const State<TriangleGrains>& state) {
 }
 
 Json triangle_stress(const State<TriangleGrains>& state) {
-  const StressTensor s = measured_stress(state.packing, state.law);
+  const StressTensor s = measured_stress(state);
   double sum = 0;
   for (const Overlap& o : state.packing.overlaps) sum += o.normal_force;
   const auto overlaps = static_cast<double>(state.packing.overlaps.size());
