@@ -141,7 +141,7 @@ std::optional<StateFault> memory_fault(const TriangleMemory& m, const TrianglePa
     if (size != walls && size != 0)
       return StateFault{"solver", "an array has neither one element a triangle of a wall nor none"};
   for (const std::size_t size : {lists.outer_position.size(), lists.inner_position.size()})
-    if (size != grains && size != 0) return StateFault{"solver", "an array has neither one element a grain nor none"};
+    if (size > grains) return StateFault{"solver", "an array of the lists has more elements than there are grains"};
   if (auto f = check_values(half_velocity, "solver/half_velocity")) return f;
   if (auto f = check_values(half_spin, "solver/half_spin")) return f;
   if (auto f = check_values(force, "solver/force")) return f;
