@@ -15,6 +15,8 @@
 #include "dem/files/state_file.hpp"
 #include "dem/input_error.hpp"
 #include "dem/triangles/network_file.hpp"
+#include "dem/triangles/state_check.hpp"
+#include "dem/triangles/vtp.hpp"
 
 namespace isostat {
 namespace {
@@ -73,9 +75,19 @@ int convert_command(int argc, char** argv) {
   if (!file.state.packing.beams.empty() && !output.ends_with(".net") && !output.ends_with(".vtp"))
     throw InputError(input_path, 0, "-o", output, "beams are kept by .net files only (and drawn in .vtp)");
   if (file.triangles) {
-    if (!output.ends_with(".net"))
-      throw InputError(input_path, 0, "-o", output, "triangles are kept by .net files only");
-    write_files_atomically({{output, triangle_network_text(file.triangles->packing, file.corners)}});
+    const State<TriangleGrains>& state = *file.triangles;
+    if (output.ends_with(".h5")) {
+      if (const auto fault = state_fault(state))  // a network may have beams that no run can march
+        throw InputError(input_path, 0, "-o", output,
+                         "cannot be kept as a state: " + fault->field + ": " + fault->rule);
+      write_state(state, output);
+    } else if (output.ends_with(".net")) {
+      write_files_atomically({{output, triangle_network_text(state.packing, file.corners)}});
+    } else if (output.ends_with(".vtp")) {
+      write_files_atomically({{output, vtk_polydata(state.packing, state.time)}});
+    } else {
+      throw InputError(input_path, 0, "-o", output, "triangles are kept by .h5 and .net files only (drawn in .vtp)");
+    }
     return exit_done;
   }
   if (output.ends_with(".h5")) {

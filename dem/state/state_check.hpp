@@ -79,6 +79,7 @@ std::optional<StateFault> run_fault(const State<System>& s) {
     if (stress && !finite(*stress)) return StateFault{"run", "an imposed stress that is not a finite number"};
   if (!finite(s.cell_motion.reference_length) || !finite(s.cell_motion.strain_rate) || !finite(s.cell_motion.stress))
     return StateFault{"cell", "a number that is not finite"};
+  if (name(s.scene.system) != System::name) return StateFault{"scene", "is of another system than the state"};
   if (s.progress.stage < 0 || static_cast<std::size_t>(s.progress.stage) > s.scene.stages.size())
     return StateFault{"progress", "stage is not one of the scene's"};
   if (!finite(s.progress.start_time) || !finite(s.progress.quiet_since) || !finite(s.progress.unchanged_since) ||

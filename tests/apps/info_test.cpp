@@ -6,10 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "dem/files/atomic_file.hpp"
 #include "dem/files/state_file.hpp"
 #include "dem/files/state_seal.hpp"
 #include "dem/scene/file.hpp"
+#include "dem/triangles/vtp.hpp"
 #include "tests/apps/program.hpp"
+#include "tests/support/triangle_state.hpp"
 
 namespace isostat {
 namespace {
@@ -90,6 +93,45 @@ TEST_F(InfoCommand, GivesSiWithUnitsAndNullWithoutCohesion) {
   EXPECT_EQ(dry["scales"]["V*"], nullptr);
   EXPECT_EQ(dry["scales"]["h0_over_D0"], nullptr);
   EXPECT_EQ(dry["cell"], nullptr);
+}
+
+TEST_F(InfoCommand, TellsTheSystemAndItsOwnNumbers) {
+  write_state(two_disks(), in_folder("disks.h5"));
+  EXPECT_EQ(json::parse(run("info " + in_folder("disks.h5")).out)["system"], "disks");
+  State<TriangleGrains> state = random_triangle_state(2, false);
+  state.scene = default_scene(SceneSystem::triangles, 2), state.time_step = 1.2e-5;
+  write_state(state, in_folder("triangles.h5"));
+  const Outcome o = run("info " + in_folder("triangles.h5"));
+  ASSERT_EQ(o.code, 0) << o.err;
+  const json j = json::parse(o.out);
+  EXPECT_EQ(j["system"], "triangles");
+  EXPECT_EQ(j["format_version"], 4);
+  EXPECT_EQ(j["hash"], read_state_file(in_folder("triangles.h5")).hash);
+  EXPECT_EQ(j["cell"], nullptr);
+  EXPECT_EQ(j["seed"], state.seed);
+  EXPECT_EQ(j["grains"], 2);
+  EXPECT_EQ(j["wall_grains"], 2);
+  EXPECT_EQ(j["triangles"], 10);
+  EXPECT_EQ(j["beams"], 8);
+  EXPECT_EQ(j["events"], 2);
+  EXPECT_EQ(j["scene"]["system"], "triangles");
+  EXPECT_EQ(j["law"]["contact"], "paper");
+  EXPECT_EQ(j["law"]["damping"], state.law.damping);
+  EXPECT_EQ(j["law"]["limit_shear"], nullptr);  // never
+  EXPECT_EQ(j["scales"]["dt"], 1.2e-5);
+  EXPECT_DOUBLE_EQ(j["scales"]["omega_max"], state.scene.step.fraction / 1.2e-5);
+}
+
+TEST_F(AnyCommand, ConvertKeepsTrianglesWhereItCan) {
+  const State<TriangleGrains> state = random_triangle_state(3, false);
+  write_state(state, in_folder("t.h5"));
+  ASSERT_EQ(run("convert " + in_folder("t.h5") + " -o " + in_folder("copy.h5")).code, 0);
+  EXPECT_EQ(read_state_file(in_folder("copy.h5")).hash, read_state_file(in_folder("t.h5")).hash);
+  ASSERT_EQ(run("convert " + in_folder("t.h5") + " -o " + in_folder("t.vtp")).code, 0);
+  EXPECT_EQ(read_whole_file(in_folder("t.vtp")), vtk_polydata(state.packing, state.time));
+  const Outcome refused = run("convert " + in_folder("t.h5") + " -o " + in_folder("t.csv"));
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("triangles are kept by .h5 and .net files only"));
 }
 
 TEST_F(AnyCommand, BadUsageAndInputExitWithTwo) {

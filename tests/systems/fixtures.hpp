@@ -76,7 +76,7 @@ State<System> marched(State<System> s, const CellControl& control, std::int64_t 
 // Everything in the state, memory included.
 template <class System>
 std::string bytes(State<System> s) {
-  s.scene = {}, s.progress.stage = 0;  // keys that do not apply are not kept
+  s.scene = default_scene(s.scene.system), s.progress.stage = 0;  // keys that do not apply are not kept
   return encode_state(s);
 }
 

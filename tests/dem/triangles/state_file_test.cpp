@@ -134,6 +134,7 @@ TEST(TriangleStateFile, EveryFaultIsNamedAndNeverWritten) {
       {"law", "not known", [](S& s) { s.law.failure = static_cast<BeamFailure>(3); }},
       {"surroundings", "not finite", [](S& s) { s.surroundings.start_angle = nan; }},
       {"surroundings", "negative", [](S& s) { s.surroundings.grains_left = -1; }},
+      {"scene", "another system", [](S& s) { s.scene.system = SceneSystem::disks; }},
       {"progress", "stage is not one", [](S& s) { s.progress.stage = 3; }},
   };
   const State<TriangleGrains> state = random_triangle_state(8);
