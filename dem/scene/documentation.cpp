@@ -80,7 +80,8 @@ std::string scene_documentation() {
       "triangles:\n";
   text += units_text();
   text +=
-      "\nIn F1, F1/a and F1 a, a is then the root of the area of the largest grain, F1 = max(a P, weight of the heaviest "
+      "\nIn F1, F1/a and F1 a, a is then the root of the area of the largest grain, F1 = max(a P, weight of the "
+      "heaviest "
       "grain) or, without either, 1 dyn.\n";
   text += "\n## Keys of all systems\n" + tables_of(SystemSet::all());
   for (std::size_t s = 0; s < kSystemNames.size(); ++s)

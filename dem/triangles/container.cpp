@@ -91,14 +91,17 @@ class Builder {
     const double around = 2 * std::numbers::pi * c_.radius, wanted = rows ? c_.wall_size : 2 * largest_.radius;
     const int count = std::max(rows ? 4 : kFewestFacets, 2 * static_cast<int>(std::lround(0.5 * around / wanted)));
     const double sector = 2 * std::numbers::pi / count, side = 2 * c_.radius * std::tan(0.5 * sector);
-    const double depth = rows ? side : thickness(side);
+    // A square set back reaches to the outer corners of its neighbours, so that no gap opens between their sides.
+    const double behind = 2 * (c_.radius + side) * std::sin(sector) - side * std::cos(sector);
+    const double depth = thickness(side);
     for (int k = 0; k < count; ++k) {
       const Vec2 outwards{{std::cos(k * sector), std::sin(k * sector)}}, along{{-outwards[1], outwards[0]}};
-      const double distance = c_.radius + (rows && k % 2 == 1 ? 0.5 * side : 0.0);
-      if (rows)
-        block(grain_shape("square", side), distance * outwards, along, depth, GrainPart::wall);
+      const bool back = k % 2 == 1;
+      if (!rows)
+        rectangle(1.5 * side, depth, c_.radius * outwards, along, GrainPart::wall);  // no gap at its ends
       else
-        rectangle(1.5 * side, depth, distance * outwards, along, GrainPart::wall);  // no gap at its ends
+        block(grain_shape("square", back ? behind : side), (c_.radius + (back ? 0.5 * side : 0.0)) * outwards, along,
+              back ? behind : side, GrainPart::wall);
     }
   }
 

@@ -10,6 +10,12 @@
 #include "geometry/triangle_mesh.hpp"
 
 namespace isostat {
+namespace {
+
+// omega dt up to which an oscillation without dampers stays bounded, or grows slowly (Gear).
+constexpr double kVerletLimit = 2, kGearLimit = 0.5;
+
+}  // namespace
 
 GrainMaterial material_of(const Scene& scene) {
   const TriangleLawScene& law = scene.triangle_law;
@@ -38,15 +44,13 @@ double grain_area(const GrainTemplate& grain) {
 double contact_frequency(const GrainTemplate& grain, double modulus) {
   const double length = std::sqrt(grain_area(grain));
   double squared = 0;
-  for (const GrainTriangle& t : grain.triangles) {
-    double side = 0, arm = 0;  // squared
+  for (const GrainTriangle& t : grain.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2 edge = t.corner[(k + 1) % 3] - t.corner[k];
-      side = std::max(side, dot(edge, edge)), arm = std::max(arm, dot(t.corner[k], t.corner[k]));
+      const Vec2 edge = t.corner[(k + 1) % 3] - t.corner[k], middle = 0.5 * (t.corner[k] + t.corner[(k + 1) % 3]);
+      const double side = dot(edge, edge), along = dot(middle, edge);  // squared; arm times side
+      const double stiffness = modulus * side / length;
+      squared = std::max(squared, 2 * stiffness * (1 / t.mass + along * along / (side * t.inertia)));
     }
-    const double stiffness = modulus * side / length;
-    squared = std::max(squared, 2 * stiffness * (1 / t.mass + arm / t.inertia));  // 2: of the reduced mass
-  }
   return std::sqrt(squared);
 }
 
@@ -56,9 +60,9 @@ double step_frequency(const GrainTemplate& grain, double modulus) {
 
 double largest_step(const GrainTemplate& grain, double modulus, Integrator integrator) {
   const StableStep free = stable_step(grain, SpinInDampers::torque_and_force);
-  // Verlet bears an oscillation up to omega dt = 2, Gear's scheme of five values up to 0.9, growing slowly.
   const bool gear = integrator == Integrator::gear;
-  return std::min(gear ? free.gear : free.verlet, (gear ? 0.9 : 2.0) / contact_frequency(grain, modulus));
+  return std::min(gear ? free.gear : free.verlet,
+                  (gear ? kGearLimit : kVerletLimit) / contact_frequency(grain, modulus));
 }
 
 GrainTemplate template_of(const TrianglePacking& packing, std::size_t g, const GrainMaterial& material) {

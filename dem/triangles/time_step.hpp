@@ -17,9 +17,9 @@ std::vector<std::string> shape_names(const std::string& list);
 
 double grain_area(const GrainTemplate& grain);  // [cm^2]
 
-// Of one contact of two such grains, an estimate from above [1/s]. Its stiffness is at most Y s^2 / l for a chord as
-// long as the longest side s of a triangle, with l^2 the area of the grain; it acts at a corner, the farthest point
-// from the centroid, on the lightest triangle by itself.
+// Of two such grains that lie with an edge on each other [1/s]: K = Y s^2 / l for the side s of a triangle, with l^2
+// the area of the grain, acting in the middle of the side on the triangle by itself. Other contacts are shorter and
+// softer.
 double contact_frequency(const GrainTemplate& grain, double modulus);
 
 // omega [1/s]: of the beams; of a grain without beams, which is rigid, contact_frequency().
