@@ -26,24 +26,18 @@ struct TriangleForceOptions {
 double mean_overlap_force(const TrianglePacking& packing);
 std::unique_ptr<TriangleContent> triangle_forces_content(TriangleForceOptions options);
 
-// Velocity of the centre of mass of each grain, and its spin: angular momentum over moment of inertia. Of any motion of
-// the bodies: a mode's displacements, too.
+// Of each free grain the velocity of its centre of mass, and its spin: angular momentum over moment of inertia. Of any
+// motion of the bodies: of a mode's displacements, too.
 struct GrainMotion {
-  std::vector<Vec2> centre;    // [cm]
-  std::vector<Vec2> velocity;  // one a grain; walls and lids are at rest
+  std::vector<std::size_t> grain;
+  std::vector<Vec2> centre;  // [cm]
+  std::vector<Vec2> velocity;
   std::vector<double> spin;
 };
 GrainMotion grain_motion(const TrianglePacking& packing, const std::vector<Vec2>& velocity,
                          const std::vector<double>& spin);
-// options.velocity and options.spin: one a grain.
-std::unique_ptr<TriangleContent> triangle_motion_content(std::vector<Vec2> centre, MotionOptions options);
-
-// Colours by cluster, as for disks.
-struct TriangleClusterOptions {
-  std::vector<std::int32_t> of_body;  // cluster of each triangle, or -1
-  std::vector<bool> hyperstatic;      // one a cluster
-};
-std::unique_ptr<TriangleContent> triangle_clusters_content(TriangleClusterOptions options);
+// Takes velocity and spin of the options from the motion.
+std::unique_ptr<TriangleContent> triangle_motion_content(GrainMotion motion, MotionOptions options);
 
 // Keeps a reference to the packing.
 class TriangleSubject final : public PictureSubject {

@@ -15,7 +15,7 @@ namespace {
 constexpr double kMargin = 0.15;    // [mean diameter] around grains and room
 constexpr double kLongWall = 4;     // [mean diameter] a wall grain longer than this is a smooth wall
 constexpr double kWallStrip = 0.7;  // [mean diameter] of a smooth wall that shows
-constexpr double kLidDash = 0.35;   // [mean diameter]
+constexpr double kLidDash = 0.15;   // [mean diameter]
 
 struct Box {
   Vec2 low{{INFINITY, INFINITY}}, high{{-INFINITY, -INFINITY}};

@@ -33,8 +33,7 @@ std::vector<Content> velocities(const std::vector<TriangleInput>& inputs) {
   std::vector<Content> contents;
   for (GrainMotion& m : motions)
     contents.push_back(triangle_motion_content(
-        std::move(m.centre),
-        {std::move(m.velocity), std::move(m.spin), rich("`v`"), plain("spin"), plain("cm/s"), plain("/s"), {}, scale}));
+        std::move(m), {{}, {}, rich("`v`"), plain("spin"), plain("cm/s"), plain("/s"), {}, scale}));
   return contents;
 }
 
