@@ -8,6 +8,7 @@
 
 #include "dem/disks/kernel/row.hpp"
 #include "dem/solver/aligned.hpp"
+#include "dem/state/grain_part.hpp"
 #include "geometry/vec.hpp"
 
 namespace isostat {
@@ -18,12 +19,20 @@ struct BodyConstants {
   double mass;                           // [m]
 };
 
+// A body of a wall or lid: a place of the container. It has no inverse mass, so that no force moves it.
+struct DrivenBody {
+  std::int32_t body;  // its place in the storage
+  Vec2 built;         // [a] where it was built
+  GrainPart part;
+};
+
 struct BodiesStore {
   std::vector<std::int64_t> id;
   AlignedVector<double> rows;   // kernel::kRowWidth a body: x, y, u, v, R w, w, p, q
   AlignedVector<double> loads;  // kernel::kLoadWidth a body: Fx, Fy, A, B; moment = R A + B
   AlignedVector<BodyConstants> constants;
-  std::vector<double> inertia;  // [m a^2] as given: 1/(1/I) is not always I, and restarts are exact
+  std::vector<double> inertia;     // [m a^2] as given: 1/(1/I) is not always I, and restarts are exact
+  std::vector<DrivenBody> driven;  // in storage order
 
   std::size_t size() const { return id.size(); }
   void resize(std::size_t n) {
@@ -52,7 +61,15 @@ struct BodiesStore {
       std::copy_n(row(k), kernel::kRowWidth, sorted.row(t));
       std::copy_n(load(k), kernel::kLoadWidth, sorted.load(t));
     }
+    sorted.driven = driven;
+    for (DrivenBody& d : sorted.driven) d.body = to[static_cast<std::size_t>(d.body)];
+    std::sort(sorted.driven.begin(), sorted.driven.end(),
+              [](const DrivenBody& a, const DrivenBody& b) { return a.body < b.body; });
     *this = std::move(sorted);
+  }
+  // Two bodies of the container.
+  bool inert(std::size_t i, std::size_t j) const {
+    return !driven.empty() && constants[i].inverse_mass == 0 && constants[j].inverse_mass == 0;
   }
 
   static constexpr std::size_t kPads = 64;

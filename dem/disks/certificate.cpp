@@ -18,13 +18,14 @@ struct Motion {
   double kinetic_energy = 0;
   std::int64_t moving = 0;
 };
-Motion motion_of(const Bodies<2>& bodies, const std::vector<BodyLoad>& loads, const DiskLaw& law, double tolerance) {
+Motion motion_of(const Packing<2>& packing, const std::vector<BodyLoad>& loads, const DiskLaw& law, double tolerance) {
+  const Bodies<2>& bodies = packing.bodies;
   const bool any_touching = std::any_of(loads.begin(), loads.end(), [](const BodyLoad& b) { return b.links > 0; });
   const bool all_count = law.attraction > 0 || !any_touching;
   Motion motion;
   std::size_t counted = 0;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    if (!all_count && loads[k].links == 0) continue;
+    if (!is_free(packing.part, k) || (!all_count && loads[k].links == 0)) continue;
     double energy = 0.5 * bodies.mass[k] * dot(bodies.velocity[k], bodies.velocity[k]);
     if (law.friction > 0) energy += 0.5 * bodies.inertia[k] * bodies.spin[k] * bodies.spin[k];
     ++counted;
@@ -37,15 +38,18 @@ Motion motion_of(const Bodies<2>& bodies, const std::vector<BodyLoad>& loads, co
 
 }  // namespace
 
-double force_scale(const DiskLaw& law, const ImposedStress& imposed) {
-  const double scale = std::max(law.attraction, std::abs(largest_stress(imposed).value_or(0.0)));
+double force_scale(const DiskLaw& law, const ImposedStress& imposed, double heaviest_weight) {
+  const double scale = std::max({law.attraction, std::abs(largest_stress(imposed).value_or(0.0)), heaviest_weight});
   return scale > 0 ? scale : 1.0;
 }
 
 Certificate evaluate_certificate(const Packing<2>& packing, const DiskLaw& law, const ImposedStress& imposed,
-                                 const EquilibriumScene& tolerance) {
+                                 const EquilibriumScene& tolerance, double gravity) {
   Certificate c;
-  c.force_scale = force_scale(law, imposed);
+  double heaviest = 0;  // [m]
+  for (std::size_t k = 0; k < packing.bodies.size(); ++k)
+    if (is_free(packing.part, k)) heaviest = std::max(heaviest, packing.bodies.mass[k]);
+  c.force_scale = force_scale(law, imposed, heaviest * gravity);
   c.tolerance_force = tolerance.force;
   c.tolerance_pressure = tolerance.pressure;
   c.tolerance_kinetic = tolerance.kinetic_energy;
@@ -61,13 +65,15 @@ Certificate evaluate_certificate(const Packing<2>& packing, const DiskLaw& law, 
 
   const std::vector<BodyLoad> loads = net_loads(packing);
   double largest_force = 0, largest_moment = 0;
-  for (const BodyLoad& b : loads) {
-    largest_force = largest_of(largest_force, std::hypot(b.fx, b.fy));
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    if (!is_free(packing.part, k)) continue;
+    const BodyLoad& b = loads[k];
+    largest_force = largest_of(largest_force, std::hypot(b.fx, b.fy - packing.bodies.mass[k] * gravity));
     largest_moment = largest_of(largest_moment, std::abs(b.moment));
   }
   c.max_force = largest_force / c.force_scale;
   c.max_moment = largest_moment / c.force_scale;
-  const Motion motion = motion_of(packing.bodies, loads, law, tolerance.kinetic_energy * c.force_scale);
+  const Motion motion = motion_of(packing, loads, law, tolerance.kinetic_energy * c.force_scale);
   c.kinetic_energy_per_grain = motion.kinetic_energy / c.force_scale, c.moving = motion.moving;
   if (c.pressure_controlled) {
     StressTensor stress;
@@ -89,7 +95,8 @@ std::size_t loaded_contacts(const State<Disks>& s) {
 }
 
 Certificate evaluate_certificate(const State<Disks>& state) {
-  Certificate c = evaluate_certificate(state.packing, state.law, state.imposed_stress, state.scene.equilibrium);
+  Certificate c = evaluate_certificate(state.packing, state.law, state.imposed_stress, state.scene.equilibrium,
+                                       state.scene.gravity);
   c.finishing = state.certificate.finishing;
   c.moving = std::max(c.moving, state.certificate.moving);  // a static solve knows of slower ones
   return c;

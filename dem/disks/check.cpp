@@ -7,23 +7,39 @@
 
 #include "dem/disks/scales.hpp"
 #include "dem/scene/text.hpp"
+#include "dem/state/container_region.hpp"
 
 namespace isostat {
 namespace {
 
+constexpr double kPackedFraction = 0.8;  // [-] solid fraction of a bed of disks, about
 constexpr double kLargestOverlap = 0.1;  // [smallest diameter] static overlap F1 / K_N that still means a contact
 
-// Longer edge of the initial cell, L1 L2 = sum pi d^2/4 / Phi_I with the mean square of a uniform diameter.
-double longest_edge(const Scene& scene) {
-  const GrainsScene& g = scene.grains;
+bool contained(const Scene& scene) { return scene.container.shape != ContainerShape::none; }
+
+// Sum of pi d^2/4 with the mean square of a uniform diameter.
+double area_of_grains(const GrainsScene& g) {
   const double mean_square = (g.diameter_min * (g.diameter_min + g.diameter_max) + g.diameter_max * g.diameter_max) / 3;
-  const double area = g.count * std::numbers::pi / 4 * mean_square / g.solid_fraction;
+  return g.count * std::numbers::pi / 4 * mean_square;
+}
+
+// Longer edge of the container or of the initial cell, L1 L2 = sum pi d^2/4 / Phi_I.
+double longest_edge(const Scene& scene) {
+  const ContainerScene& c = scene.container;
+  if (contained(scene)) return std::max(2 * half_width(c), region_top(c) - region_bottom(c));
+  const double area = area_of_grains(scene.grains) / scene.grains.solid_fraction;
   return std::sqrt(area * std::max(scene.cell.aspect, 1 / scene.cell.aspect));
 }
 
+double largest_diameter(const Scene& scene) { return scene.grains.file.empty() ? scene.grains.diameter_max : 1.0; }
+
+// Weight of the largest grain [F0].
+double heaviest(const Scene& scene) { return largest_diameter(scene) * largest_diameter(scene) * scene.gravity; }
+
 // F1 [F0] of a stage, a = 1.
-double largest_force(const LawScene& law, const StageScene& stage) {
-  double force = std::max(law.attraction, std::abs(largest_stress(imposed_stress(stage)).value_or(0)));
+double largest_force(const Scene& scene, const StageScene& stage) {
+  double force =
+      std::max({scene.law.attraction, std::abs(largest_stress(imposed_stress(stage)).value_or(0)), heaviest(scene)});
   for (const double p : stage.pressures) force = std::max(force, p);
   return force;
 }
@@ -42,9 +58,9 @@ void check_stiffness(const Scene& scene, std::vector<SceneConflict>& found) {
   const double stiffness = scene.law.normal_stiffness;
   const bool random = scene.grains.file.empty();
   double largest = scene.law.attraction, smallest = std::numeric_limits<double>::infinity();
-  std::vector<std::string> involved{"law.normal_stiffness", "law.attraction", "grains.diameter_min"};
+  std::vector<std::string> involved{"law.normal_stiffness", "law.attraction", "grains.diameter_min", "gravity"};
   for (std::size_t i = 0; i < scene.stages.size(); ++i) {
-    const double force = largest_force(scene.law, scene.stages[i]);
+    const double force = largest_force(scene, scene.stages[i]);
     largest = std::max(largest, force);
     if (force > 0) smallest = std::min(smallest, force);
     for (const char* key : {"pressure", "pressures", "stress_1", "stress_2"}) involved.push_back(stage_key(i, key));
@@ -52,7 +68,7 @@ void check_stiffness(const Scene& scene, std::vector<SceneConflict>& found) {
   const double diameter = random ? scene.grains.diameter_min : 1.0;
   if (largest > kLargestOverlap * diameter * stiffness)
     found.push_back({"law.normal_stiffness", real_text(stiffness),
-                     "too soft: the force scale F1 = max(F0, a P) = " + real_text(largest) +
+                     "too soft: the force scale F1 = max(F0, a P, weight of a grain) = " + real_text(largest) +
                          " would overlap contacts by more than " + real_text(kLargestOverlap) +
                          " of the smallest diameter; at least " + real_text(largest / (kLargestOverlap * diameter)),
                      involved});
@@ -98,13 +114,52 @@ void check_cohesion(const Scene& scene, std::vector<SceneConflict>& found) {
                        real_text(s.velocity),
                        "0, since law.attraction is 0: the unit V* = sqrt(F0 D0 / m) vanishes",
                        {velocity, "law.attraction"}});
-    if (waits_for_equilibrium(s.until) && !(largest_force(scene.law, s) > 0))
+    if (waits_for_equilibrium(s.until) && !(largest_force(scene, s) > 0))
       found.push_back({pressure,
                        s.pressure ? real_text(*s.pressure) : "",
                        "greater than 0, since law.attraction is 0 and " + until + " is \"" +
-                           std::string(name(s.until)) + "\": without attraction or pressure there is no force scale",
-                       {pressure, until, "law.attraction"}});
+                           std::string(name(s.until)) +
+                           "\": without attraction, pressure or gravity there is no force scale",
+                       {pressure, until, "law.attraction", "gravity"}});
   }
+}
+
+// The grains at the bottom of a container carry those above them.
+void check_bed(const Scene& scene, std::vector<SceneConflict>& found) {
+  if (!contained(scene) || !scene.grains.file.empty()) return;
+  const ContainerScene& c = scene.container;
+  const double depth = height_of_area(c, area_of_grains(scene.grains) / kPackedFraction) - region_bottom(c);
+  const double load = heaviest(scene) * std::max(1.0, depth / scene.grains.diameter_max);
+  const double least = load / (kLargestOverlap * scene.grains.diameter_min);
+  if (scene.law.normal_stiffness < least)
+    found.push_back({"law.normal_stiffness",
+                     real_text(scene.law.normal_stiffness),
+                     "too soft: the bed, " + real_text(depth) +
+                         " a deep, would overlap contacts at its bottom by more "
+                         "than " +
+                         real_text(kLargestOverlap) + " of the smallest diameter; at least " + real_text(least),
+                     {"law.normal_stiffness", "gravity", "grains.count", "grains.diameter_min", "grains.diameter_max",
+                      "container.width"}});
+}
+
+// What disks cannot do in a container, or under gravity.
+void check_surroundings(const Scene& scene, std::vector<SceneConflict>& found) {
+  if (!contained(scene)) return;
+  if (scene.container.walls == ContainerWalls::smooth)
+    found.push_back({"container.walls",
+                     quoted_text("smooth"),
+                     "walls of disks are rows of disks, \"grains\"; smooth ones are for triangles",
+                     {"container.walls", "container.shape"}});
+  if (scene.output.energies)
+    found.push_back({"output.energies",
+                     "true",
+                     "the ledger of disks does not know the work of weight and of walls: not with a container",
+                     {"output.energies", "container.shape", "gravity"}});
+  if (scene.finish.method == Finish::newton)
+    found.push_back({"finish.method",
+                     quoted_text("newton"),
+                     "static solves know neither weight nor walls: \"none\" or \"drag\" with a container",
+                     {"finish.method", "container.shape", "gravity"}});
 }
 
 }  // namespace
@@ -115,6 +170,8 @@ std::vector<SceneConflict> disk_conflicts(const Scene& scene) {
   check_stiffness(scene, found);
   check_step(scene, found);
   check_cohesion(scene, found);
+  check_bed(scene, found);
+  check_surroundings(scene, found);
   return found;
 }
 

@@ -27,6 +27,7 @@ struct DiskMemory {
   std::vector<double> torque;                  // [F0 a]
   std::vector<PairMemory<DiskHistory>> pairs;  // any order
   ListMemory lists;
+  std::vector<Vec2> wall_position;  // [a] of walls and lids, in storage order, where they were built
 };
 
 class DiskEngine;

@@ -24,6 +24,7 @@ template class NeighbourLists<DiskPairs>;
 DiskEngine::DiskEngine(const State<Disks>& state, const CellControl& control, const SolverOptions& options)
     : law_(state.law),
       dt_(state.time_step),
+      gravity_(state.scene.gravity),
       ledger_(state.ledger),
       begins_(state.memory.half_velocity.empty()),
       energies_(options.energies),
@@ -33,10 +34,11 @@ DiskEngine::DiskEngine(const State<Disks>& state, const CellControl& control, co
                                   : control.moves() ? Tally::stress
                                                     : Tally::nothing,
                                   options.isa)),
-      motion_kernel_(select_motion({rotates_, control.moves()})),
+      motion_kernel_(select_motion({rotates_, control.moves(), gravity_ > 0})),
       team_(std::min(options.threads, Lists::chunk_count(state.packing.bodies.size()))),
       lists_(state.packing.bodies.size(), law_.attraction_range, DiskPairs(law_)) {
   load_bodies(state);
+  if (smallest_mass_ == INFINITY) smallest_mass_ = 1;  // nothing but a container
   prediction_ = velocity_prediction(law_, smallest_mass_, dt_);
 }
 
@@ -44,6 +46,7 @@ void DiskEngine::load_bodies(const State<Disks>& state) {
   const Bodies<2>& b = state.packing.bodies;
   const DiskMemory& m = state.memory;
   bodies_.resize(b.size());
+  load_walls(state);
   smallest_diameter_ = smallest_mass_ = INFINITY;
   for (std::size_t k = 0; k < b.size(); ++k) {
     const Vec2 u = begins_ ? b.velocity[k] : m.half_velocity[k];
@@ -54,17 +57,20 @@ void DiskEngine::load_bodies(const State<Disks>& state) {
     row[Slot::surface_speed] = b.radius[k] * w, row[Slot::half_spin] = w;
     row[Slot::vx] = b.velocity[k][0], row[Slot::vy] = b.velocity[k][1];
     bodies_.id[k] = b.id[k];
-    bodies_.constants[k] = {1 / b.mass[k], 1 / b.inertia[k], b.radius[k], b.mass[k]};
+    const bool free = is_free(state.packing.part, k);
+    bodies_.constants[k] = {free ? 1 / b.mass[k] : 0, free ? 1 / b.inertia[k] : 0, b.radius[k], b.mass[k]};
     bodies_.inertia[k] = b.inertia[k];
     smallest_diameter_ = std::min(smallest_diameter_, 2 * b.radius[k]);
-    smallest_mass_ = std::min(smallest_mass_, b.mass[k]);
+    if (free) smallest_mass_ = std::min(smallest_mass_, b.mass[k]);
     largest_diameter_ = std::max(largest_diameter_, 2 * b.radius[k]);
+    double* load = bodies_.load(k);
+    load[LoadSlot::fy] = -(b.mass[k] * gravity_) + 0.0;
     if (!begins_) {
-      double* load = bodies_.load(k);
       load[LoadSlot::fx] = m.force[k][0], load[LoadSlot::fy] = m.force[k][1], load[LoadSlot::moment] = m.torque[k];
     }
   }
   if (!begins_) return lists_.restore(bodies_, m.lists, m.pairs);
+  place_walls(state.time);
   std::vector<PairMemory<DiskHistory>> springs;
   for (const Link<2>& l : state.packing.links)
     if (is_contact(l.kind)) {
@@ -79,6 +85,42 @@ void DiskEngine::load_bodies(const State<Disks>& state) {
   } catch (const ListFailure& e) {
     throw RunError(state.step, -1, e.what(), "use more grains (grains.count) or a larger cell (grains.solid_fraction)");
   }
+}
+
+// Where its bodies were built: kept by the memory, else from where they stand.
+void DiskEngine::load_walls(const State<Disks>& state) {
+  const std::vector<GrainPart>& part = state.packing.part;
+  const auto stage = static_cast<std::size_t>(state.progress.stage);
+  if (state.progress.started && stage < state.scene.stages.size())
+    container_motion_ = state.scene.stages[stage].container;
+  surroundings_ = state.surroundings, stage_start_ = state.progress.start_time;
+  const ContainerPlacement now = container_at(container_motion_, surroundings_, state.time - stage_start_);
+  const std::vector<Vec2>& built = state.memory.wall_position;
+  for (std::size_t k = 0; k < part.size(); ++k) {
+    if (part[k] == GrainPart::free) continue;
+    const std::size_t w = bodies_.driven.size();
+    bodies_.driven.push_back({static_cast<std::int32_t>(k),
+                              built.empty() ? built_at(now, state.packing.bodies.position[k]) : built[w], part[k]});
+  }
+}
+
+// Springs are stretched by half-step velocities, those in the middle of the step that ends now.
+double DiskEngine::place_walls(double time) {
+  const double in_stage = time - stage_start_;
+  const ContainerPlacement now = container_at(container_motion_, surroundings_, in_stage);
+  const ContainerPlacement half = container_at(container_motion_, surroundings_, in_stage - 0.5 * dt_);
+  double fastest = 0;
+  for (const DrivenBody& d : bodies_.driven) {
+    const auto k = static_cast<std::size_t>(d.body);
+    const Vec2 r = point_at(now, d.built), u = velocity_at(half, point_at(half, d.built)), v = velocity_at(now, r);
+    double* row = bodies_.row(k);
+    bodies_.place(k, r);
+    row[Slot::half_vx] = u[0], row[Slot::half_vy] = u[1];
+    row[Slot::surface_speed] = bodies_.radius(k) * half.spin, row[Slot::half_spin] = half.spin;
+    row[Slot::vx] = v[0], row[Slot::vy] = v[1];
+    fastest = std::max(fastest, norm(u));
+  }
+  return fastest;
 }
 
 void DiskEngine::start_half_steps() {
@@ -98,14 +140,16 @@ void DiskEngine::start_half_steps() {
 Advance DiskEngine::advance(const MotionStep& step, double drag) {
   if (energies_ && (step.keep[0] != 1 || step.keep[1] != 1)) brake_ledger(step, drag);
   over_chunks(team_, lists_, motion_tallies_, [&](std::size_t begin, std::size_t end) {
-    return motion_kernel_(bodies_, begin, end, step, prediction_);
+    return motion_kernel_(bodies_, begin, end, step, prediction_, gravity_);
   });
   motion_tally_ = {};
   for (const MotionTally& t : motion_tallies_) {
     motion_tally_.largest_speed_squared = std::max(motion_tally_.largest_speed_squared, t.largest_speed_squared);
     motion_tally_.kinetic[0] += t.kinetic[0], motion_tally_.kinetic[1] += t.kinetic[1];
   }
-  const double move = dt_ * std::sqrt(motion_tally_.largest_speed_squared);
+  double speed = std::sqrt(motion_tally_.largest_speed_squared);
+  if (!bodies_.driven.empty()) speed = std::max(speed, place_walls(step.time));
+  const double move = dt_ * speed;
   const double affine = std::max(std::abs(step.scale[0] - 1), std::abs(step.scale[1] - 1));
   // Listed neighbours are nearer than two diameters and the range; the first factor covers the rescaling of the
   // peculiar move, and the rounding of travels summed over many steps.
@@ -211,6 +255,8 @@ void DiskEngine::snapshot_bodies(State<Disks>& s) const {
   b.resize(n);
   DiskMemory& m = s.memory;
   m.half_velocity.resize(n), m.half_spin.resize(n), m.force.resize(n), m.torque.resize(n);
+  s.packing.part.assign(bodies_.driven.empty() ? 0 : n, GrainPart::free);
+  m.wall_position.clear();
   for (std::size_t k = 0; k < n; ++k) {
     const double *row = bodies_.row(k), *load = bodies_.load(k);
     const BodyConstants& c = bodies_.constants[k];
@@ -225,6 +271,13 @@ void DiskEngine::snapshot_bodies(State<Disks>& s) const {
     m.half_spin[k] = row[Slot::half_spin];
     m.force[k] = {{load[LoadSlot::fx], load[LoadSlot::fy]}};
     m.torque[k] = torque;
+  }
+  for (const DrivenBody& d : bodies_.driven) {
+    const auto k = static_cast<std::size_t>(d.body);
+    const double* row = bodies_.row(k);
+    b.velocity[k] = {{row[Slot::vx], row[Slot::vy]}};
+    s.packing.part[k] = d.part;
+    m.wall_position.push_back(d.built);
   }
 }
 

@@ -1,5 +1,5 @@
-// What a step does to disks: leapfrog motion, neighbour lists, pair forces, the energy ledger, and the traffic of
-// bodies and links with a state.
+// What a step does to disks: leapfrog motion, a container that moves by itself, neighbour lists, pair forces, the
+// energy ledger, and the traffic of bodies and links with a state.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -13,6 +13,7 @@
 #include "dem/solver/neighbours.hpp"
 #include "dem/solver/solver.hpp"
 #include "dem/solver/team.hpp"
+#include "dem/state/container_motion.hpp"
 
 namespace isostat {
 
@@ -31,6 +32,7 @@ class DiskEngine {
   Advance advance(const MotionStep& step, double drag);      // all bodies
   void update_lists(const Cell& cell, double displacement);  // throws ListFailure
   void compute_forces(const Cell& cell, const CellFlow& flow, double time_step);
+  void correct() {}  // of a predictor-corrector: leapfrog has none
   StressSums sums() const;
   void keep_books();  // of the step that ends, if the ledger is kept
 
@@ -43,6 +45,8 @@ class DiskEngine {
 
  private:
   void load_bodies(const State<Disks>& state);
+  void load_walls(const State<Disks>& state);
+  double place_walls(double time);  // rows of the container's bodies at this time; their largest speed [a/T0]
   void snapshot_bodies(State<Disks>& state) const;
   void snapshot_links(State<Disks>& state) const;
   Vec2 branch(std::int32_t i, std::int32_t j, std::uint8_t shift, const Cell& cell) const;
@@ -52,7 +56,7 @@ class DiskEngine {
   double elastic_energy() const;
 
   DiskLaw law_;
-  double dt_ = 0;
+  double dt_ = 0, gravity_ = 0;  // [T0], [a/T0^2]
   EnergyLedger ledger_;
   bool begins_, energies_, rotates_;
   PairForceKernel force_kernel_;
@@ -68,6 +72,9 @@ class DiskEngine {
   CellFlow flow_;                                                            // of the last forces
   double smallest_diameter_ = 0, largest_diameter_ = 0, smallest_mass_ = 0;  // [a], [m]
   double prediction_ = 0.5;                                                  // [dt]
+  ContainerMotionScene container_motion_;                                    // of the stage
+  Surroundings surroundings_;                                                // when it began
+  double stage_start_ = 0;                                                   // [T0]
 };
 
 }  // namespace isostat

@@ -12,9 +12,9 @@ using Pair __attribute__((vector_size(16), may_alias)) = double;
 Pair* pairs(double* p) { return reinterpret_cast<Pair*>(__builtin_assume_aligned(p, 16)); }
 Pair larger(Pair a, Pair b) { return a > b ? a : b; }
 
-template <bool kRotation, bool kFreeCell>
-MotionTally advance(BodiesStore& bodies, std::size_t begin, std::size_t end, const MotionStep& step,
-                    double prediction) {
+template <bool kRotation, bool kFreeCell, bool kWeight>
+MotionTally advance(BodiesStore& bodies, std::size_t begin, std::size_t end, const MotionStep& step, double prediction,
+                    [[maybe_unused]] double gravity) {
   const double dt = step.time_step, ahead = prediction * dt;
   const Pair keep = {step.keep[0], step.keep[1]};
   const Pair scale = {step.scale[0], step.scale[1]}, drift = {dt * step.half_scale[0], dt * step.half_scale[1]};
@@ -41,18 +41,28 @@ MotionTally advance(BodiesStore& bodies, std::size_t begin, std::size_t end, con
       r[2] = Pair{c.radius * spin, spin};
     }
     r[3] = predicted;
-    f[0] = f[1] = Pair{0, 0};
+    if constexpr (kWeight) {
+      f[0] = Pair{0, -(c.mass * gravity)};
+      f[1] = Pair{0, 0};
+    } else {
+      f[0] = f[1] = Pair{0, 0};
+    }
     fastest = larger(fastest, velocity * velocity);
   }
   // max u^2 + max v^2 bounds max (u^2 + v^2)
   return {fastest[0] + fastest[1], {kinetic[0], kinetic[1]}};
 }
 
+template <bool kWeight>
+MotionKernel with_weight(MotionNeeds needs) {
+  if (needs.rotation) return needs.free_cell ? advance<true, true, kWeight> : advance<true, false, kWeight>;
+  return needs.free_cell ? advance<false, true, kWeight> : advance<false, false, kWeight>;
+}
+
 }  // namespace
 
 MotionKernel select_motion(MotionNeeds needs) {
-  if (needs.rotation) return needs.free_cell ? advance<true, true> : advance<true, false>;
-  return needs.free_cell ? advance<false, true> : advance<false, false>;
+  return needs.weight ? with_weight<true>(needs) : with_weight<false>(needs);
 }
 
 }  // namespace isostat

@@ -36,11 +36,12 @@ struct MotionTally {
 
 // Which instance of the step a scene needs: a frictionless one turns nothing, a fixed cell scales nothing.
 struct MotionNeeds {
-  bool rotation = true, free_cell = true;
+  bool rotation = true, free_cell = true, weight = false;
 };
-// prediction [dt]: how far p is ahead of u, see velocity_prediction().
+// prediction [dt]: how far p is ahead of u, see velocity_prediction(). gravity [a/T0^2]: the loads of the next forces
+// begin with the weights, along -y; 0 where none is needed.
 using MotionKernel = MotionTally (*)(BodiesStore&, std::size_t begin, std::size_t end, const MotionStep&,
-                                     double prediction);
+                                     double prediction, double gravity);
 MotionKernel select_motion(MotionNeeds needs);
 
 }  // namespace isostat

@@ -1,6 +1,7 @@
 // The stage runner for disks.
 #include "dem/disks/certificate.hpp"
 #include "dem/disks/engine.hpp"
+#include "dem/disks/outflow.hpp"
 #include "dem/disks/stage.hpp"
 #include "dem/run/stages_impl.hpp"
 

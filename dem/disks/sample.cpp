@@ -5,26 +5,29 @@
 #include <numbers>
 #include <numeric>
 
+#include "dem/disks/container.hpp"
 #include "dem/disks/scales.hpp"
 #include "dem/files/packing_file.hpp"
 #include "dem/input_error.hpp"
 #include "dem/scene/check.hpp"
 #include "dem/scene/text.hpp"
 #include "dem/solver/random.hpp"
+#include "dem/state/container_motion.hpp"
+#include "dem/state/container_region.hpp"
 #include "dem/state/touching.hpp"
 #include "geometry/cell_grid.hpp"
 
 namespace isostat {
 namespace {
 
-// Random sequential placement, largest first, with a grid of cells of the largest diameter.
+// Random sequential placement, largest first, with a grid of cells of the largest diameter: in a periodic cell, or in a
+// room (its columns at the edges see those on the other side, where nothing is near).
 class Placement {
  public:
-  Placement(const PeriodicCell<2>& cell, double largest_diameter, double gap, std::size_t bodies)
-      : cell_(cell),
-        gap_(gap),
-        grid_({{}, cell.length, true}, largest_diameter + gap, bodies),
-        members_(grid_.size()) {}
+  Placement(const Frame<2>& frame, double largest_diameter, double gap, std::size_t bodies)
+      : gap_(gap), grid_(frame, largest_diameter + gap, bodies), members_(grid_.size()) {
+    if (frame.periodic) cell_ = PeriodicCell<2>{frame.length};
+  }
 
   bool free(const Vec2& r, double radius, const Bodies<2>& bodies) const {
     const std::array<int, 2> c = grid_.columns(r), n{grid_.count(0), grid_.count(1)};
@@ -33,7 +36,7 @@ class Placement {
         for (const std::size_t k :
              members_[grid_.index(std::array<int, 2>{(c[0] + ox + n[0]) % n[0], (c[1] + oy + n[1]) % n[1]})]) {
           Vec2 d = bodies.position[k] - r;
-          d += cell_.offset(cell_.nearest_image(d));
+          if (cell_) d += cell_->offset(cell_->nearest_image(d));
           if (norm(d) < radius + bodies.radius[k] + gap_) return false;
         }
     return true;
@@ -41,7 +44,7 @@ class Placement {
   void add(const Vec2& r, std::size_t k) { members_[grid_.index(r)].push_back(k); }
 
  private:
-  PeriodicCell<2> cell_;
+  std::optional<PeriodicCell<2>> cell_;
   double gap_;
   CellGrid<2> grid_;
   std::vector<std::vector<std::size_t>> members_;
@@ -59,8 +62,12 @@ void set_disk_inertia(Bodies<2>& b) {
   }
 }
 
-double time_step(const Scene& scene, double normal_stiffness, const Bodies<2>& bodies) {
-  const double heaviest = *std::max_element(bodies.mass.begin(), bodies.mass.end());
+double time_step(const Scene& scene, double normal_stiffness, const Packing<2>& packing) {
+  const std::vector<double>& mass = packing.bodies.mass;
+  double heaviest = 0;
+  for (std::size_t k = 0; k < mass.size(); ++k)
+    if (is_free(packing.part, k)) heaviest = std::max(heaviest, mass[k]);
+  if (!(heaviest > 0)) heaviest = *std::max_element(mass.begin(), mass.end());  // all grains have left
   return scene.step.fraction * std::sqrt(heaviest / normal_stiffness);
 }
 
@@ -94,11 +101,29 @@ void refuse_without_cell(const Scene& scene, const std::string& path) {
   if (!faults.empty()) throw InputError(std::move(faults));
 }
 
+// The container of a file stays where it stands; the scene has to know which it is. A packing without one gets that of
+// the scene around it.
+void contain(State<Disks>& state, const State<Disks>& file, const std::string& path) {
+  const bool walls = !state.packing.part.empty();
+  const ContainerScene& wanted = state.scene.container;
+  if (!walls && wanted.shape == ContainerShape::none) return;
+  if (!walls && state.packing.cell)
+    throw InputError(path, 0, "grains.file", path, "it has a periodic cell, and the scene puts a container around it");
+  if (!walls) return add_container(state);
+  if (wanted != file.scene.container)
+    throw InputError(path, 0, "grains.file", path, "it has a container; the scene needs the same [container]");
+  const ContainerPlacement stands = container_of(file);
+  state.surroundings.start_offset = stands.offset, state.surroundings.start_angle = stands.angle;
+  state.surroundings.open = file.surroundings.open;
+}
+
 // grains.file: bodies, cell and spring histories of a packing under the scene's law, at time 0.
 State<Disks> state_from_file(const Scene& scene, std::uint64_t seed) {
   const std::string& path = scene.grains.file;
   PackingFile file = read_packing(path);
   if (file.packing_3d) throw InputError(path, 0, "grains.file", path, "a packing of disks is wanted; this one is 3D");
+  if (file.triangles)
+    throw InputError(path, 0, "grains.file", path, "a packing of disks is wanted; this one is of triangles");
   Packing<2>& packing = file.state.packing;
   if (!packing.cell) refuse_without_cell(scene, path);
   if (!packing.beams.empty())
@@ -106,19 +131,23 @@ State<Disks> state_from_file(const Scene& scene, std::uint64_t seed) {
   if (packing.bodies.size() == 0) throw InputError(path, 0, "grains.file", path, "it holds no grain");
   State<Disks> state = without_bodies(scene, seed);
   state.packing = std::move(packing);
+  contain(state, file.state, path);
   set_disk_inertia(state.packing.bodies);
   if (!file.links_given) state.packing.links.clear();
   const Bodies<2>& b = state.packing.bodies;
   for (const Link<2>& l : touching_links(state.packing, 0.0)) {
     const auto i = static_cast<std::size_t>(l.i), j = static_cast<std::size_t>(l.j);
     const double sum = b.radius[i] + b.radius[j];
+    if (!is_free(state.packing.part, i) && !is_free(state.packing.part, j)) continue;
     if (l.gap < -kMostOverlapAtStart * sum)
       throw InputError(path, 0, "grains.file", path,
                        "grains " + std::to_string(b.id[i]) + " and " + std::to_string(b.id[j]) + " overlap by " +
                            std::to_string(-l.gap) + " a; at most a tenth of the sum of radii is allowed");
   }
-  state.time_step = time_step(scene, state.law.normal_stiffness, b);
-  const double smallest = 2 * *std::min_element(b.radius.begin(), b.radius.end());
+  state.time_step = time_step(scene, state.law.normal_stiffness, state.packing);
+  double smallest = INFINITY;
+  for (std::size_t k = 0; k < b.size(); ++k)
+    if (is_free(state.packing.part, k)) smallest = std::min(smallest, 2 * b.radius[k]);
   const double bound = scene.step.fraction * critical_time_step(state.law, smallest) / state.time_step;
   if (!(scene.step.fraction < bound))
     throw InputError(path, 0, "step.fraction", real_text(scene.step.fraction),
@@ -126,6 +155,39 @@ State<Disks> state_from_file(const Scene& scene, std::uint64_t seed) {
                          real_text(bound));
   if (state.packing.cell) state.cell_motion.reference_length = state.packing.cell->length;
   return state;
+}
+
+// Where grains are put in: the periodic cell, or the lower part of a container.
+struct Room {
+  Frame<2> frame;
+  const ContainerScene* container = nullptr;
+  bool holds(const Vec2& r, double radius) const {
+    return !container || (isostat::holds(*container, r, radius) && r[1] + radius <= frame.origin[1] + frame.length[1]);
+  }
+  Vec2 random_point(Random& random) const {
+    Vec2 r;
+    for (int a = 0; a < 2; ++a) r[a] = random.uniform() * frame.length[a] + frame.origin[a];
+    return r;
+  }
+};
+
+constexpr double kRoomAtLeast = 8;  // [largest diameter^2] of a container: for a few grains
+
+// area [a^2] of the room.
+Room room_of(const Scene& scene, double area) {
+  const ContainerScene& c = scene.container;
+  if (c.shape == ContainerShape::none) {
+    const double width = std::sqrt(area * scene.cell.aspect);
+    return {{{}, {{width, area / width}}, true}};
+  }
+  const double bottom = region_bottom(c), has = area_below(c, region_top(c));
+  if (area > has)
+    throw InputError("scene", 0, "container", "",
+                     "too small for the grains: at grains.solid_fraction = " + real_text(scene.grains.solid_fraction) +
+                         " they take an area of " + real_text(area) + " a^2, it has " + real_text(has));
+  const double half = half_width(c), diameter = scene.grains.diameter_max;
+  const double top = height_of_area(c, std::max(area, kRoomAtLeast * diameter * diameter));
+  return {{{{-half, bottom}}, {{2 * half, top - bottom}}, false}, &scene.container};
 }
 
 }  // namespace
@@ -143,9 +205,11 @@ State<Disks> initial_disks(const Scene& scene, std::uint64_t seed) {
     d = g.diameter_min + (g.diameter_max - g.diameter_min) * random.uniform();
     area += std::numbers::pi / 4 * d * d;
   }
-  const double cell_area = area / g.solid_fraction, width = std::sqrt(cell_area * scene.cell.aspect);
-  state.packing.cell = PeriodicCell<2>{{{width, cell_area / width}}};
-  const PeriodicCell<2>& cell = *state.packing.cell;
+  const Room room = room_of(scene, area / g.solid_fraction);
+  if (room.frame.periodic) {
+    state.packing.cell = PeriodicCell<2>{room.frame.length};
+    state.cell_motion.reference_length = room.frame.length;
+  }
 
   Bodies<2>& b = state.packing.bodies;
   b.resize(n);
@@ -153,7 +217,7 @@ State<Disks> initial_disks(const Scene& scene, std::uint64_t seed) {
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t p, std::size_t q) { return diameters[p] > diameters[q]; });
-  Placement placement(cell, diameters[order[0]], state.law.attraction_range, n);
+  Placement placement(room.frame, diameters[order[0]], state.law.attraction_range, n);
   for (std::size_t k : order) {
     b.id[k] = static_cast<std::int64_t>(k);
     b.radius[k] = diameters[k] / 2;
@@ -163,15 +227,15 @@ State<Disks> initial_disks(const Scene& scene, std::uint64_t seed) {
       if (++tries > kMostTries)
         throw InputError("scene", 0, "grains.solid_fraction", std::to_string(g.solid_fraction),
                          "random placement without overlap found no room; lower it (0.5 is safe)");
-      r = {{random.uniform() * cell.length[0], random.uniform() * cell.length[1]}};
-    } while (!placement.free(r, b.radius[k], b));
+      r = room.random_point(random);
+    } while (!room.holds(r, b.radius[k]) || !placement.free(r, b.radius[k], b));
     b.position[k] = r;
     placement.add(r, k);
   }
   set_disk_inertia(b);
-  state.time_step = time_step(scene, state.law.normal_stiffness, b);
+  if (room.container) add_container(state);
+  state.time_step = time_step(scene, state.law.normal_stiffness, state.packing);
   state.random_counter = random.counter();
-  state.cell_motion.reference_length = cell.length;
   return state;
 }
 

@@ -1,4 +1,5 @@
-// The I-state: disks in random non-overlapping positions of a periodic cell, at rest (Gilabert 2007, Sec. III.A).
+// The I-state: disks in random non-overlapping positions of a periodic cell, at rest (Gilabert 2007, Sec. III.A), or of
+// a container, which they fill from below.
 #pragma once
 #include "dem/disks/disks.hpp"
 
@@ -10,7 +11,7 @@ void set_disk_inertia(Bodies<2>& bodies);
 // A state before its first stage: bodies, cell, law, time step. Throws InputError if the disks cannot be placed.
 State<Disks> initial_disks(const Scene& scene, std::uint64_t seed);
 
-// dt = c sqrt(m_max / K_N).
-double time_step(const Scene& scene, double normal_stiffness, const Bodies<2>& bodies);
+// dt = c sqrt(m_max / K_N), m_max of the free grains.
+double time_step(const Scene& scene, double normal_stiffness, const Packing<2>& packing);
 
 }  // namespace isostat

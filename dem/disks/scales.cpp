@@ -38,8 +38,10 @@ Scales scales(const DiskLaw& law, std::optional<double> pressure, double diamete
 
 Scales scales(const State<Disks>& state) {
   const auto& radius = state.packing.bodies.radius;
-  if (radius.empty()) return scales(state.law, largest_stress(state.imposed_stress), 1, state.time_step);
-  const double smallest = *std::min_element(radius.begin(), radius.end());
+  double smallest = INFINITY;
+  for (std::size_t k = 0; k < radius.size(); ++k)
+    if (is_free(state.packing.part, k)) smallest = std::min(smallest, radius[k]);
+  if (smallest == INFINITY) return scales(state.law, largest_stress(state.imposed_stress), 1, state.time_step);
   return scales(state.law, largest_stress(state.imposed_stress), 2 * smallest, state.time_step);
 }
 

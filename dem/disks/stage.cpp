@@ -13,7 +13,7 @@ namespace isostat {
 void prepare_stage(State<Disks>& s, const StageScene& stage) {
   s.progress.start_stiffness = s.law.normal_stiffness;
   const double stiffest = std::max(s.law.normal_stiffness, stage.normal_stiffness.value_or(0));
-  const double dt = time_step(s.scene, stiffest, s.packing.bodies), earlier = 0.5 * (s.time_step - dt);
+  const double dt = time_step(s.scene, stiffest, s.packing), earlier = 0.5 * (s.time_step - dt);
   if (dt == s.time_step) return;
   s.time_step = dt;
   DiskMemory& m = s.memory;
@@ -36,6 +36,7 @@ void agitate(State<Disks>& s, const StageScene& stage) {
   const double before = energies(s).kinetic;
   Vec2 momentum{};
   double mass = 0;
+  std::erase_if(order, [&](std::size_t k) { return !is_free(s.packing.part, k); });
   for (std::size_t k : order) {
     b.velocity[k] = {{random.normal(), random.normal()}};
     momentum += b.mass[k] * b.velocity[k];
@@ -46,9 +47,10 @@ void agitate(State<Disks>& s, const StageScene& stage) {
     b.velocity[k] -= (1 / mass) * momentum;
     sum += dot(b.velocity[k], b.velocity[k]);
   }
-  const double scale = sum > 0 ? rms / std::sqrt(sum / static_cast<double>(b.size())) : 0.0;
+  const double scale = sum > 0 ? rms / std::sqrt(sum / static_cast<double>(order.size())) : 0.0;
   double after = 0;
   for (std::size_t k = 0; k < b.size(); ++k) {
+    if (!is_free(s.packing.part, k)) continue;
     b.velocity[k] = scale * b.velocity[k];
     after += 0.5 * b.mass[k] * dot(b.velocity[k], b.velocity[k]);
     b.spin[k] = 0;

@@ -48,7 +48,7 @@ class FinishingPolicy {
     const bool newton = method() == Finish::newton;
     const bool network =
         waits_for_equilibrium(stage_.until) && !law_changes(s_, stage_) && (newton || !still_flying()) &&
-        static_cast<double>(loaded_contacts(s_)) >= kNetwork * static_cast<double>(s_.packing.bodies.size());
+        static_cast<double>(loaded_contacts(s_)) >= kNetwork * static_cast<double>(count_free(s_.packing));
     const bool carries =
         c.pressure_error * c.force_scale < std::max(kCarried * std::abs(largest_stress(s_.imposed_stress).value_or(0)),
                                                     10 * c.tolerance_pressure * c.force_scale);

@@ -2,8 +2,10 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
+#include "dem/run/outflow.hpp"
 #include "dem/run/stage_opening.hpp"
 #include "dem/state/certificate.hpp"
 #include "dem/state/clusters.hpp"
@@ -14,7 +16,7 @@ namespace isostat {
 template <class System>
 class StageEnd {
  public:
-  StageEnd(State<System>& state, const StageScene& stage) : s_(state), stage_(stage) {}
+  StageEnd(State<System>& state, const StageScene& stage) : s_(state), stage_(stage), outflow_(state, stage) {}
 
   // [T0] when the stage is over by its length; infinite where that is no matter of time.
   double time() const { return stage_.until == Until::time ? s_.progress.start_time + stage_.time : INFINITY; }
@@ -33,7 +35,9 @@ class StageEnd {
       case Until::failure:
         return failed();
       case Until::empty:
+        return outflow_.empty();
       case Until::clogged:
+        return outflow_.clogged();
       case Until::separated:
         return event_met(s_, stage_);
     }
@@ -49,6 +53,7 @@ class StageEnd {
         return "the peak stress has not dropped by stage.drop";
       case Until::empty:
       case Until::clogged:
+        return outflow_.missing();
       case Until::separated:
         return event_missing(s_, stage_);
       case Until::time:
@@ -62,6 +67,9 @@ class StageEnd {
     const WorstCriterion worst = worst_criterion(s_.certificate);
     return worst.name + " is " + std::to_string(worst.ratio) + " times its tolerance";
   }
+
+  // Why it can't be met any more, if so.
+  std::optional<std::string> spoilt() const { return outflow_.spoilt(); }
 
   void follow_peak() {
     if (stage_.until == Until::failure) s_.progress.peak_stress = std::max(s_.progress.peak_stress, stress_change());
@@ -91,6 +99,7 @@ class StageEnd {
 
   State<System>& s_;
   const StageScene& stage_;
+  Outflow<System> outflow_;
 };
 
 }  // namespace isostat

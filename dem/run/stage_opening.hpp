@@ -4,6 +4,7 @@
 #include <numeric>
 #include <vector>
 
+#include "dem/run/outflow.hpp"
 #include "dem/solver/barostat.hpp"
 #include "dem/state/balance.hpp"
 #include "dem/state/state.hpp"
@@ -14,7 +15,7 @@ namespace isostat {
 template <class System>
 Vec2 static_stress(const State<System>& s) {
   if (!s.packing.cell) return {};
-  const StressTensor stress = measured_stress(s.packing);
+  const StressTensor stress = measured_stress(s);
   return {{stress.xx, stress.yy}};
 }
 
@@ -22,6 +23,7 @@ Vec2 static_stress(const State<System>& s) {
 template <class System>
 void open_stage(State<System>& s, const StageScene& stage) {
   prepare_stage(s, stage);
+  if (stage.container.open && !s.surroundings.open) Outflow<System>::open(s);
   s.progress.started = true;
   s.progress.start_stress = static_stress(s);
   s.progress.peak_stress = 0;

@@ -7,6 +7,7 @@
 
 #include "dem/run/finishing_policy.hpp"
 #include "dem/run/observers.hpp"
+#include "dem/run/outflow.hpp"
 #include "dem/run/stage_end.hpp"
 #include "dem/run/stages.hpp"
 
@@ -25,6 +26,7 @@ class StageRun {
         finisher_(finisher),
         end_(state, stage_),
         policy_(state, stage_),
+        outflow_(state, stage_),
         solver_(std::in_place, state, cell_control(state, stage_), options),
         interval_(check_interval(state.time_step)),
         slice_(
@@ -99,12 +101,24 @@ class StageRun {
   }
   void certify() {
     const std::string finishing = s_.progress.drag_on ? "drag" : s_.certificate.finishing;
-    s_.certificate = evaluate_certificate(s_.packing, s_.law, s_.imposed_stress, s_.scene.equilibrium);
+    s_.certificate =
+        evaluate_certificate(s_.packing, s_.law, s_.imposed_stress, s_.scene.equilibrium, s_.scene.gravity);
     s_.certificate.finishing = finishing;
   }
   void look() {
     check_and_take();
+    if (outflow_.empties()) {
+      begin_again();
+      certify();
+    }
     observers_.look(s_);
+  }
+  // The solver anew, from a state that was changed under it.
+  void begin_again() {
+    times_before_ += solver_->times();
+    solver_.emplace(s_, cell_control(s_, stage_), options_);
+    if (s_.progress.drag_on) solver_->set_drag(s_.scene.finish.drag);
+    solver_->snapshot(s_);
   }
 
   // Everything that is decided about a run is decided here, at fixed steps, whoever watches.
@@ -115,6 +129,10 @@ class StageRun {
     StageOutcome outcome{s_.progress.stage, true, s_.time, until, waits ? s_.certificate.moving : 0};
     if (end_.met()) return outcome;
     outcome.met = false;
+    if (const std::optional<std::string> spoilt = end_.spoilt()) {
+      outcome.reason = *spoilt;
+      return outcome;
+    }
     if (hooks_.max_time > 0 && s_.time >= hooks_.max_time) {
       outcome.reason = "stopped by --max-time " + std::to_string(hooks_.max_time) + " T0: " + end_.missing();
       return outcome;
@@ -149,9 +167,7 @@ class StageRun {
       return;
     }
     if (report.settled || report.advanced) {
-      times_before_ += solver_->times();
-      solver_.emplace(s_, control, options_);
-      solver_->snapshot(s_);
+      begin_again();
       s_.certificate.finishing = "newton";
     }
     s_.progress.drifting = policy_.drifts_after(report);
@@ -168,8 +184,9 @@ class StageRun {
   StaticSolver<System>* finisher_;
   StageEnd<System> end_;
   FinishingPolicy<System> policy_;
+  Outflow<System> outflow_;
   std::optional<Solver<System>> solver_;
-  StepTimes times_before_;  // of the solvers before a static solve
+  StepTimes times_before_;  // of the solvers before this one
   std::int64_t interval_, slice_;
   bool interrupted_ = false;  // in a static solve
 };

@@ -1,11 +1,12 @@
 // run_stages<System> written out; included where a system instantiates it. Of the system it wants, beside its types:
 // prepare_stage, agitate, law_changes, law_at (dem/disks/run.cpp), evaluate_certificate, loaded_contacts, event_met,
-// event_missing.
+// event_missing, open_outlet, take_away, grains_above_outlet (dem/disks/outflow.hpp), count_free of its packing.
 #pragma once
 #include "dem/input_error.hpp"
 #include "dem/run/stage_run.hpp"
 #include "dem/run/stages.hpp"
 #include "dem/solver/clocks.hpp"
+#include "dem/state/container_motion.hpp"
 
 namespace isostat {
 
@@ -27,6 +28,8 @@ RunOutcome run_stages(State<System>& state, const SolverOptions& options, const 
     outcome.interrupted = !stage;
     if (outcome.interrupted) break;
     outcome.stages.push_back(*stage);
+    bring_forward(state.surroundings, state.scene.stages[static_cast<std::size_t>(state.progress.stage)].container,
+                  state.time - state.progress.start_time);
     ++state.progress.stage;
     state.progress.started = false;
     if (hooks.stage_end) hooks.stage_end(state);

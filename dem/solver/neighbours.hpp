@@ -9,10 +9,12 @@
 //
 // The lists see positions and radii. What a listed pair carries is a type Columns:
 //   Columns::Bodies    the bodies' store: size(), position(k), radius(k), id[k], place(k, r), reorder(to),
-//                      static pad(n, k) of kPads padding pairs
+//                      static pad(n, k) of kPads padding pairs; if there are bodies that never interact with each
+//                      other whatever they do, inert(i, j)
 //   Columns::History   what a pair keeps from step to step; History{} is none
 //   kStride            kernels name body k by kStride k
 //   resize(n), fill(k, bodies, i, j), history(k), remember(k, history), static turned(history)
+//   static inner_skin(displacement of neighbours a step, mean diameter): optional, where the default does not suit
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -67,6 +69,9 @@ class NeighbourLists {
     outer_travel_ += pair_displacement;
     if (!(inner_travel_ <= inner_skin_)) rebuild(bodies, cell, pair_displacement);
   }
+  // Whether update() would rebuild: for who must prepare the bodies.
+  bool outgrown(double pair_displacement) const { return !(inner_travel_ + pair_displacement <= inner_skin_); }
+  double inner_skin() const { return inner_skin_; }  // [a] within which listed pairs are
 
   Columns& columns() { return columns_; }
   const Columns& columns() const { return columns_; }

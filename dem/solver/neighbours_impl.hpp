@@ -95,6 +95,8 @@ void NeighbourLists<Columns>::measure(const Bodies& bodies) {
 
 template <class Columns>
 double NeighbourLists<Columns>::inner_skin_for(double pair_displacement) const {
+  if constexpr (requires { Columns::inner_skin(pair_displacement, mean_diameter_); })
+    return std::min(Columns::inner_skin(pair_displacement, mean_diameter_), lists::kLargestInnerSkin * outer_skin_);
   return std::min(std::max(lists::kInnerSteps * pair_displacement, lists::kSmallestInnerSkin * smallest_diameter_),
                   lists::kLargestInnerSkin * outer_skin_);
 }
@@ -192,6 +194,8 @@ void NeighbourLists<Columns>::find_outer(const Bodies& bodies) {
           const double dx = outer_position_[j][0] + offset[0] - ri[0], dy = outer_position_[j][1] + offset[1] - ri[1];
           const double reach = reach_i + bodies.radius(j);
           if (dx * dx + dy * dy > reach * reach) continue;
+          if constexpr (requires { bodies.inert(i, j); })
+            if (bodies.inert(i, j)) continue;
           outer_i_.push_back(static_cast<std::int32_t>(i));
           outer_j_.push_back(static_cast<std::int32_t>(j));
           outer_shift_.push_back(image_code(shift));

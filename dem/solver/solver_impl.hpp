@@ -39,6 +39,7 @@ void Solver<System>::step() {
   update_lists(displacement);
   clock.mark(Stage::neighbours);
   engine_.compute_forces(cell_, flow_, dt_);
+  engine_.correct();
   clock.mark(Stage::forces);
   measure_stress();
   engine_.keep_books();
@@ -50,7 +51,7 @@ void Solver<System>::step() {
 template <class System>
 MotionStep Solver<System>::move_cell() {
   MotionStep step;
-  step.time_step = dt_;
+  step.time_step = dt_, step.time = time_ + dt_;
   step.keep[0] = step.keep[1] = step.keep_spin = 1 - drag_ * dt_;
   if (control_.moves()) flow_ = advance_cell(control_, dt_, cell_motion_, *cell_, step);
   return step;

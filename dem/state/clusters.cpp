@@ -6,8 +6,11 @@ namespace isostat {
 
 std::size_t count_clusters(const Packing<2>& p) {
   UnionFind joined(p.bodies.size());
-  std::size_t count = p.bodies.size();
-  for (const Link<2>& l : p.links) count -= joined.join(static_cast<std::size_t>(l.i), static_cast<std::size_t>(l.j));
+  std::size_t count = count_free(p);
+  for (const Link<2>& l : p.links) {
+    const auto i = static_cast<std::size_t>(l.i), j = static_cast<std::size_t>(l.j);
+    if (is_free(p.part, i) && is_free(p.part, j)) count -= joined.join(i, j);
+  }
   return count;
 }
 

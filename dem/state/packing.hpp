@@ -3,6 +3,7 @@
 // Reduced units: length a (largest diameter), mass m (disk of diameter a), force F0 (or a P without cohesion);
 // T0 = sqrt(m a / F0). Gilabert 2007, Sec. II.
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -10,6 +11,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "dem/state/grain_part.hpp"
 #include "geometry/periodic_cell.hpp"
 #include "geometry/vec.hpp"
 
@@ -86,7 +88,14 @@ struct Packing {
   std::optional<PeriodicCell<D>> cell;  // none: isolated
   Bodies<D> bodies;
   std::vector<Link<D>> links;
-  std::vector<Beam> beams;  // of the links of kind beam; in the plane only
+  std::vector<Beam> beams;      // of the links of kind beam; in the plane only
+  std::vector<GrainPart> part;  // of the bodies; empty: all are free
 };
+
+template <int D>
+std::size_t count_free(const Packing<D>& packing) {
+  if (packing.part.empty()) return packing.bodies.size();
+  return static_cast<std::size_t>(std::count(packing.part.begin(), packing.part.end(), GrainPart::free));
+}
 
 }  // namespace isostat

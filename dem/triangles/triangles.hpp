@@ -1,6 +1,7 @@
 // The system of grains of triangles joined by beams: its types alone, no kernel in sight. Units cm, g, s. Poeschel and
 // Buchholtz 1995; bodies are triangles, a grain is triangles joined by beams, links are beams and overlaps.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -8,14 +9,12 @@
 #include <string_view>
 #include <vector>
 
+#include "dem/state/grain_part.hpp"
 #include "dem/state/list_memory.hpp"
 #include "dem/state/packing.hpp"
 #include "dem/state/state.hpp"
 
 namespace isostat {
-
-// What a grain is a part of.
-enum class GrainPart : std::uint8_t { free, wall, lid };  // a lid closes an outlet: a wall that goes when it is opened
 
 // The overlap of two grains: one record for each pair of grains with positive area.
 struct Overlap {
@@ -58,6 +57,11 @@ struct TrianglePacking {
   std::vector<Overlap> overlaps;  // static: without friction's viscous parts, at the positions of the bodies
   std::vector<BeamEvent> events;  // in order of time
 };
+
+// Grains that are neither wall nor lid.
+inline std::size_t count_free(const TrianglePacking& p) {
+  return static_cast<std::size_t>(std::count(p.grains.part.begin(), p.grains.part.end(), GrainPart::free));
+}
 
 // Corners of triangle k in the plane, anticlockwise, as its position, angle and body frame say.
 inline std::array<Vec2, 3> corners_of(const TrianglePacking& p, std::size_t k) {

@@ -30,7 +30,7 @@ State<Disks> marginal_row(const LawScene& law) {
   set_disk_inertia(b);
   s.packing.cell = PeriodicCell<2>{{{3, 3}}};
   s.cell_motion.reference_length = s.packing.cell->length;
-  s.time_step = time_step(s.scene, s.law.normal_stiffness, b);
+  s.time_step = time_step(s.scene, s.law.normal_stiffness, s.packing);
   return s;
 }
 

@@ -39,7 +39,7 @@ State<Disks> cluster(bool in_a_cell, Finish method) {
   }
   b.position[7] = {{57, 51}};
   set_disk_inertia(b);
-  s.time_step = time_step(scene, s.law.normal_stiffness, b);
+  s.time_step = time_step(scene, s.law.normal_stiffness, s.packing);
   if (in_a_cell) {
     s.packing.cell = PeriodicCell<2>{{{100, 100}}};
     s.cell_motion.reference_length = s.packing.cell->length;

@@ -28,7 +28,7 @@ State<Disks> few_bodies(const LawScene& law, const std::vector<Disk>& disks, dou
   for (Vec2& r : b.position) r += Vec2{{edge / 2, edge / 2}};
   state.packing.cell = PeriodicCell<2>{{{edge, edge}}};
   state.cell_motion.reference_length = state.packing.cell->length;
-  state.time_step = time_step(state.scene, state.law.normal_stiffness, b);
+  state.time_step = time_step(state.scene, state.law.normal_stiffness, state.packing);
   return state;
 }
 

@@ -23,7 +23,7 @@ Throughput measure_throughput(Packing<2> packing, const ThroughputSetup& setup) 
   state.packing = std::move(packing);
   state.packing.links.clear();
   set_disk_inertia(state.packing.bodies);
-  state.time_step = time_step(state.scene, state.law.normal_stiffness, state.packing.bodies);
+  state.time_step = time_step(state.scene, state.law.normal_stiffness, state.packing);
   if (state.packing.cell) state.cell_motion.reference_length = state.packing.cell->length;
 
   SolverOptions options;
