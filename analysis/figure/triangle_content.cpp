@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "analysis/figure/cluster_colors.hpp"
 #include "geometry/base/index.hpp"
 
 namespace isostat {
@@ -57,6 +58,31 @@ class TriangleMotionContent final : public TriangleContent {
   MotionMarks marks_;
 };
 
+class TriangleClustersContent final : public TriangleContent {
+ public:
+  explicit TriangleClustersContent(TriangleClusterOptions options) : options_(std::move(options)) {}
+
+  void draw(Canvas& canvas, const TrianglePen& pen) const override {
+    const std::vector<std::size_t> color = cluster_colors(options_.hyperstatic.size(), options_.meet);
+    std::vector<Paint> paints;
+    for (const Color& fill : cluster_fills()) paints.push_back(pen.paint(fill));
+    std::vector<std::size_t> style;
+    for (const std::int32_t c : options_.of_body)
+      style.push_back(c < 0 ? 0 : cluster_fill(color[idx(c)], options_.hyperstatic[idx(c)]));
+    pen.grains(canvas, style, paints);
+  }
+
+  std::vector<LegendItem> legend(const TrianglePen& pen, double em) const override {
+    std::vector<std::int32_t> free;
+    for (std::size_t k = 0; k < options_.of_body.size(); ++k)
+      if (pen.part(k) == GrainPart::free) free.push_back(options_.of_body[k]);
+    return cluster_legend(em, free, options_.hyperstatic);
+  }
+
+ private:
+  TriangleClusterOptions options_;
+};
+
 }  // namespace
 
 // Triangles of a grain may be listed in several images of a cell: each is taken where it is nearest to the first.
@@ -89,6 +115,10 @@ GrainMotion grain_motion(const TrianglePacking& packing, const std::vector<Vec2>
 }
 
 std::unique_ptr<TriangleContent> triangle_grains_content() { return std::make_unique<TriangleGrainsContent>(); }
+
+std::unique_ptr<TriangleContent> triangle_clusters_content(TriangleClusterOptions options) {
+  return std::make_unique<TriangleClustersContent>(std::move(options));
+}
 
 std::unique_ptr<TriangleContent> triangle_motion_content(GrainMotion motion, MotionOptions options) {
   options.velocity = motion.velocity, options.spin = motion.spin;

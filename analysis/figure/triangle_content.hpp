@@ -1,5 +1,6 @@
 // What a picture of grains of triangles shows.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -38,6 +39,14 @@ GrainMotion grain_motion(const TrianglePacking& packing, const std::vector<Vec2>
                          const std::vector<double>& spin);
 // Takes velocity and spin of the options from the motion.
 std::unique_ptr<TriangleContent> triangle_motion_content(GrainMotion motion, MotionOptions options);
+
+// Triangles in the colours of their rigid clusters, as disks.
+struct TriangleClusterOptions {
+  std::vector<std::int32_t> of_body;              // cluster of each triangle, or -1; of walls whatever it is
+  std::vector<std::array<std::int32_t, 2>> meet;  // clusters that are neighbours
+  std::vector<bool> hyperstatic;                  // one a cluster
+};
+std::unique_ptr<TriangleContent> triangle_clusters_content(TriangleClusterOptions options);
 
 // Keeps a reference to the packing.
 class TriangleSubject final : public PictureSubject {
