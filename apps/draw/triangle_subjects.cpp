@@ -6,6 +6,7 @@
 #include "analysis/rigidity/clusters.hpp"
 #include "apps/draw/subjects.hpp"
 #include "dem/input_error.hpp"
+#include "dem/state/container_motion.hpp"
 #include "geometry/base/index.hpp"
 
 namespace isostat {
@@ -112,8 +113,9 @@ Drawing drawing_of_triangles(const Arguments& arguments, const std::vector<Analy
   Drawing drawing;
   drawing.length_unit = plain("cm");
   for (std::size_t k = 0; k < inputs.size(); ++k) {
-    drawing.subjects.push_back(std::make_unique<TriangleSubject>(grains_of(inputs[k]), std::move(contents[k]),
-                                                                 room_of(inputs[k].triangles->scene.container)));
+    const State<TriangleGrains>& state = *inputs[k].triangles;
+    drawing.subjects.push_back(std::make_unique<TriangleSubject>(
+        grains_of(inputs[k]), std::move(contents[k]), room_of(state.scene.container, container_of(state).offset)));
     drawing.captions.push_back(caption(inputs[k]));
   }
   return drawing;

@@ -67,6 +67,8 @@ void load_beams(TrianglePacking& p, std::int32_t grain, double force) {
 State<TriangleGrains> small_bed() {
   State<TriangleGrains> state;
   state.time = 0.25, state.time_step = 1e-5;
+  state.scene.system = SceneSystem::triangles;
+  state.law.modulus = 2e7, state.law.tangential_stiffness = 1e5, state.law.damping = 9;
   TrianglePacking& p = state.packing;
   std::vector<std::int32_t> floor;
   for (int n = 0; n < 7; ++n)
@@ -87,6 +89,8 @@ State<TriangleGrains> small_bed() {
   const auto broken = static_cast<std::size_t>(p.links.size());
   add_grain(p, "L", 0.24, {{0.05, 0.72}}, -0.4);
   p.links.erase(p.links.begin() + static_cast<std::ptrdiff_t>(broken));
+  p.beams.erase(p.beams.begin() + static_cast<std::ptrdiff_t>(broken));
+  for (std::size_t l = broken; l < p.links.size(); ++l) --p.links[l].beam;
   const Vec2 star{{0.42, 0.78}};
   move(p, add_grain(p, "star", 0.26, star, 0.2), {{-2, -9}}, -15, star);
   // a smooth wall: a long narrow rectangle of two triangles, the rod's shape would be of eight
