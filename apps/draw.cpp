@@ -44,7 +44,32 @@ bool is_film(const Arguments& arguments, const std::string& path) {
   return film;
 }
 
+// Of one system.
+std::vector<AnalysisInput> load_all(const std::vector<std::string>& paths) {
+  std::vector<AnalysisInput> inputs;
+  for (const std::string& path : paths) {
+    inputs.push_back(load_input(path, {}));
+    AnalysisInput& input = inputs.back();
+    const auto system = [](const AnalysisInput& of) { return of.triangles ? "triangles" : "disks"; };
+    if (input.triangles.has_value() != inputs[0].triangles.has_value())
+      throw InputError(path, 0, "", "",
+                       std::string("is of ") + system(input) + ", " + paths[0] + " of " + system(inputs[0]) +
+                           ": one picture shows one system");
+    input.state.memory = {};  // of no use here, and a series may be long
+    if (input.triangles) input.triangles->memory = {};
+  }
+  return inputs;
+}
+
 }  // namespace
+
+ForceConvention convention_of(const Arguments& arguments) {
+  ForceConvention convention;
+  convention.threshold = arguments.number("--threshold");
+  const auto width = arguments.value("--width").value_or(convention.threshold ? "total" : "normal");
+  convention.width = width == "total" ? ForceMeasure::total : ForceMeasure::normal;
+  return convention;
+}
 
 std::string what_to_draw(const Arguments& arguments, bool forces_known) {
   const bool asks_forces = arguments.has("--threshold") || arguments.has("--width");
@@ -83,12 +108,8 @@ int draw_command(int argc, char** argv) {
   else
     picture_file.emplace(path);
 
-  std::vector<AnalysisInput> inputs;
-  for (const std::string& input : arguments.inputs()) {
-    inputs.push_back(load_input(input, {}));
-    inputs.back().state.memory = {};  // of no use here, and a series may be long
-  }
-  Drawing drawing = drawing_of(arguments, inputs);
+  const std::vector<AnalysisInput> inputs = load_all(arguments.inputs());
+  Drawing drawing = inputs[0].triangles ? drawing_of_triangles(arguments, inputs) : drawing_of_disks(arguments, inputs);
   if (!film) drawing.captions.clear();
   const PictureSeries series(std::move(drawing.subjects), drawing.length_unit, std::move(drawing.captions));
   if (film) {

@@ -1,14 +1,12 @@
 #include <algorithm>
 #include <array>
-#include <set>
 
+#include "analysis/figure/cluster_colors.hpp"
 #include "analysis/figure/picture_content.hpp"
 #include "geometry/base/index.hpp"
 
 namespace isostat {
 namespace {
-
-constexpr double kStrong = 0.35, kPale = 0.75;  // part of white in a hyperstatic and in an isostatic cluster
 
 class ClustersContent final : public PictureContent {
  public:
@@ -16,14 +14,11 @@ class ClustersContent final : public PictureContent {
 
   void draw(Canvas& canvas, const PicturePen& pen) const override {
     const std::vector<std::size_t> color = colors(pen.packing());
-    // paint 0: in no cluster; then strong and pale of each colour
-    std::vector<Paint> paints{{kDisk, pen.outline(kDiskOutline)}};
-    for (const Color& c : kCurves)
-      for (const double white : {kStrong, kPale})
-        paints.push_back({blend(c, kWhite, white), pen.outline(kDiskOutline)});
+    std::vector<Paint> paints;
+    for (const Color& fill : cluster_fills()) paints.push_back({fill, pen.outline(kDiskOutline)});
     std::vector<std::size_t> style;
     for (const std::int32_t c : options_.of_grain)
-      style.push_back(c < 0 ? 0 : 1 + 2 * color[idx(c)] + (options_.hyperstatic[idx(c)] ? 0 : 1));
+      style.push_back(c < 0 ? 0 : cluster_fill(color[idx(c)], options_.hyperstatic[idx(c)]));
     canvas.begin_group("disks");
     pen.disks(canvas, style, paints);
     canvas.end_group();
@@ -42,42 +37,20 @@ class ClustersContent final : public PictureContent {
   }
 
   std::vector<LegendItem> legend(const PicturePen&, double em) const override {
-    const Stroke outline{kDiskOutline, 0.5, {}};
-    const auto with = [&](bool h) {
-      return std::find(options_.hyperstatic.begin(), options_.hyperstatic.end(), h) != options_.hyperstatic.end();
-    };
-    std::vector<LegendItem> items;
-    if (with(true))
-      items.push_back(disk_item(em, {blend(kCurves[0], kWhite, kStrong), outline}, plain("hyperstatic cluster")));
-    if (with(false))
-      items.push_back(disk_item(em, {blend(kCurves[0], kWhite, kPale), outline}, plain("isostatic cluster")));
-    if (std::find(options_.of_grain.begin(), options_.of_grain.end(), -1) != options_.of_grain.end())
-      items.push_back(disk_item(em, {kDisk, outline}, plain("single")));
+    std::vector<LegendItem> items = cluster_legend(em, options_.of_grain, options_.hyperstatic);
     if (std::find(options_.of_link.begin(), options_.of_link.end(), -1) != options_.of_link.end())
       items.push_back(line_item(em, kFaint, plain("hinge")));
     return items;
   }
 
  private:
-  // In order of the clusters, the first colour that no neighbour has; the first cluster keeps the first colour.
   std::vector<std::size_t> colors(const Packing<2>& packing) const {
-    std::vector<std::set<std::int32_t>> neighbours(options_.hyperstatic.size());
-    const auto meet = [&](std::int32_t a, std::int32_t b) {
-      if (a >= 0 && b >= 0 && a != b) neighbours[idx(a)].insert(b), neighbours[idx(b)].insert(a);
-    };
+    std::vector<std::array<std::int32_t, 2>> meet;
     for (std::size_t l = 0; l < packing.links.size(); ++l) {
       const std::int32_t i = options_.of_grain[idx(packing.links[l].i)], j = options_.of_grain[idx(packing.links[l].j)];
-      meet(i, j), meet(i, options_.of_link[l]), meet(j, options_.of_link[l]);
+      meet.insert(meet.end(), {{i, j}, {i, options_.of_link[l]}, {j, options_.of_link[l]}});
     }
-    std::vector<std::size_t> color(neighbours.size(), kCurves.size());
-    for (std::size_t c = 0; c < color.size(); ++c) {
-      std::array<bool, kCurves.size()> used{};
-      for (const std::int32_t n : neighbours[c])
-        if (color[idx(n)] < kCurves.size()) used[color[idx(n)]] = true;
-      const auto first = static_cast<std::size_t>(std::find(used.begin(), used.end(), false) - used.begin());
-      color[c] = first < used.size() ? first : c % kCurves.size();
-    }
-    return color;
+    return cluster_colors(options_.hyperstatic.size(), meet);
   }
 
   ClusterOptions options_;

@@ -49,14 +49,20 @@ void FramePen::areas(Canvas& canvas, const std::vector<const Polygon*>& areas, c
 
 void PicturePen::disks(Canvas& canvas, const std::vector<std::size_t>& style, const std::vector<Paint>& paints) const {
   const Bodies<2>& b = packing_.bodies;
-  std::vector<std::vector<DiskMark>> batches(paints.size());
+  std::vector<std::vector<DiskMark>> batches(paints.size() + 2);  // walls and lids last
   for (std::size_t i = 0; i < b.size(); ++i) {
+    const GrainPart part = packing_.part.empty() ? GrainPart::free : packing_.part[i];
+    const std::size_t batch = part == GrainPart::free ? style[i] : paints.size() + (part == GrainPart::lid ? 1 : 0);
     const Vec2 r = frame().wrap(b.position[i]), reach{{b.radius[i], b.radius[i]}};
     frame().for_visible_images(r - reach, r + reach, [&](const Vec2& offset) {
-      batches[style[i]].push_back({frame().page(r + offset), b.radius[i] * frame().scale()});
+      batches[batch].push_back({frame().page(r + offset), b.radius[i] * frame().scale()});
     });
   }
-  for (std::size_t k = 0; k < batches.size(); ++k) canvas.disks(batches[k], paints[k]);
+  for (std::size_t k = 0; k < paints.size(); ++k) canvas.disks(batches[k], paints[k]);
+  const Stroke edge = outline(kInk);
+  const double dash = 0.15 * diameter();
+  canvas.disks(batches[paints.size()], {kWall, Stroke{blend(kWall, kBlack, 0.35), edge.width, {}}});
+  canvas.disks(batches[paints.size() + 1], {std::nullopt, Stroke{kInk, edge.width, {dash, 0.6 * dash}}});
 }
 
 void PicturePen::links(Canvas& canvas, const std::vector<DrawnLink>& links, const Color& color) const {

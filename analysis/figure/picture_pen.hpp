@@ -45,7 +45,8 @@ class PicturePen : public FramePen {
   const Packing<2>& packing() const { return packing_; }
   double largest_diameter() const { return largest_diameter_; }  // [length] a
 
-  // style[i] is the index of body i's paint. One batch a paint, in their order.
+  // style[i] is the index of body i's paint. One batch a paint, in their order. Walls and lids have paints of their
+  // own.
   void disks(Canvas& canvas, const std::vector<std::size_t>& style, const std::vector<Paint>& paints) const;
   void links(Canvas& canvas, const std::vector<DrawnLink>& links, const Color& color) const;
 

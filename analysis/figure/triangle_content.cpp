@@ -1,5 +1,9 @@
 #include "analysis/figure/triangle_content.hpp"
 
+#include <algorithm>
+#include <array>
+
+#include "analysis/figure/cluster_colors.hpp"
 #include "geometry/base/index.hpp"
 
 namespace isostat {
@@ -30,14 +34,15 @@ class TriangleGrainsContent final : public TriangleContent {
 
 class TriangleMotionContent final : public TriangleContent {
  public:
-  TriangleMotionContent(std::vector<Vec2> centre, MotionOptions options)
-      : centre_(std::move(centre)), marks_(std::move(options)) {}
+  TriangleMotionContent(GrainMotion motion, MotionOptions options)
+      : grain_(std::move(motion.grain)), centre_(std::move(motion.centre)), marks_(std::move(options)) {}
 
   double margin(const TrianglePacking& packing) const override { return marks_.margin(extent_of(packing).diameter); }
 
   void draw(Canvas& canvas, const TrianglePen& pen) const override {
-    const std::vector<std::size_t> of_grain = marks_.styles();
-    std::vector<std::size_t> style;
+    const std::vector<std::size_t> shade = marks_.styles();
+    std::vector<std::size_t> of_grain(pen.packing().grains.size(), 0), style;
+    for (std::size_t n = 0; n < grain_.size(); ++n) of_grain[grain_[n]] = shade[n];
     for (const std::int32_t g : pen.grain()) style.push_back(of_grain[idx(g)]);
     std::vector<Paint> paints = marks_.paints({});
     for (Paint& paint : paints) paint = pen.paint(*paint.fill);
@@ -48,8 +53,34 @@ class TriangleMotionContent final : public TriangleContent {
   std::vector<LegendItem> legend(const TrianglePen& pen, double em) const override { return marks_.legend(pen, em); }
 
  private:
+  std::vector<std::size_t> grain_;
   std::vector<Vec2> centre_;
   MotionMarks marks_;
+};
+
+class TriangleClustersContent final : public TriangleContent {
+ public:
+  explicit TriangleClustersContent(TriangleClusterOptions options) : options_(std::move(options)) {}
+
+  void draw(Canvas& canvas, const TrianglePen& pen) const override {
+    const std::vector<std::size_t> color = cluster_colors(options_.hyperstatic.size(), options_.meet);
+    std::vector<Paint> paints;
+    for (const Color& fill : cluster_fills()) paints.push_back(pen.paint(fill));
+    std::vector<std::size_t> style;
+    for (const std::int32_t c : options_.of_body)
+      style.push_back(c < 0 ? 0 : cluster_fill(color[idx(c)], options_.hyperstatic[idx(c)]));
+    pen.grains(canvas, style, paints);
+  }
+
+  std::vector<LegendItem> legend(const TrianglePen& pen, double em) const override {
+    std::vector<std::int32_t> free;
+    for (std::size_t k = 0; k < options_.of_body.size(); ++k)
+      if (pen.part(k) == GrainPart::free) free.push_back(options_.of_body[k]);
+    return cluster_legend(em, free, options_.hyperstatic);
+  }
+
+ private:
+  TriangleClusterOptions options_;
 };
 
 }  // namespace
@@ -60,6 +91,7 @@ GrainMotion grain_motion(const TrianglePacking& packing, const std::vector<Vec2>
   const Bodies<2>& b = packing.bodies;
   GrainMotion motion;
   for (std::size_t g = 0; g < packing.grains.size(); ++g) {
+    if (packing.grains.part[g] != GrainPart::free) continue;
     const auto first = idx(packing.grains.begin[g]), last = idx(packing.grains.begin[g + 1]);
     std::vector<Vec2> place;
     double mass = 0, inertia = 0, moment = 0;
@@ -76,18 +108,21 @@ GrainMotion grain_motion(const TrianglePacking& packing, const std::vector<Vec2>
       inertia += b.inertia[k] + b.mass[k] * dot(r, r);
       moment += b.inertia[k] * spin[k] + b.mass[k] * (r[0] * v[1] - r[1] * v[0]);
     }
-    const bool moves = packing.grains.part[g] == GrainPart::free;
-    motion.centre.push_back(b.position[first] + centre);
-    motion.velocity.push_back(moves ? mean : Vec2{});
-    motion.spin.push_back(moves ? moment / inertia : 0);
+    motion.grain.push_back(g), motion.centre.push_back(b.position[first] + centre);
+    motion.velocity.push_back(mean), motion.spin.push_back(moment / inertia);
   }
   return motion;
 }
 
 std::unique_ptr<TriangleContent> triangle_grains_content() { return std::make_unique<TriangleGrainsContent>(); }
 
-std::unique_ptr<TriangleContent> triangle_motion_content(std::vector<Vec2> centre, MotionOptions options) {
-  return std::make_unique<TriangleMotionContent>(std::move(centre), std::move(options));
+std::unique_ptr<TriangleContent> triangle_clusters_content(TriangleClusterOptions options) {
+  return std::make_unique<TriangleClustersContent>(std::move(options));
+}
+
+std::unique_ptr<TriangleContent> triangle_motion_content(GrainMotion motion, MotionOptions options) {
+  options.velocity = motion.velocity, options.spin = motion.spin;
+  return std::make_unique<TriangleMotionContent>(std::move(motion), std::move(options));
 }
 
 }  // namespace isostat

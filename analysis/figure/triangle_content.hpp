@@ -1,5 +1,6 @@
 // What a picture of grains of triangles shows.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -26,22 +27,24 @@ struct TriangleForceOptions {
 double mean_overlap_force(const TrianglePacking& packing);
 std::unique_ptr<TriangleContent> triangle_forces_content(TriangleForceOptions options);
 
-// Velocity of the centre of mass of each grain, and its spin: angular momentum over moment of inertia. Of any motion of
-// the bodies: a mode's displacements, too.
+// Of each free grain the velocity of its centre of mass, and its spin: angular momentum over moment of inertia. Of any
+// motion of the bodies: of a mode's displacements, too.
 struct GrainMotion {
-  std::vector<Vec2> centre;    // [cm]
-  std::vector<Vec2> velocity;  // one a grain; walls and lids are at rest
+  std::vector<std::size_t> grain;
+  std::vector<Vec2> centre;  // [cm]
+  std::vector<Vec2> velocity;
   std::vector<double> spin;
 };
 GrainMotion grain_motion(const TrianglePacking& packing, const std::vector<Vec2>& velocity,
                          const std::vector<double>& spin);
-// options.velocity and options.spin: one a grain.
-std::unique_ptr<TriangleContent> triangle_motion_content(std::vector<Vec2> centre, MotionOptions options);
+// Takes velocity and spin of the options from the motion.
+std::unique_ptr<TriangleContent> triangle_motion_content(GrainMotion motion, MotionOptions options);
 
-// Colours by cluster, as for disks.
+// Triangles in the colours of their rigid clusters, as disks.
 struct TriangleClusterOptions {
-  std::vector<std::int32_t> of_body;  // cluster of each triangle, or -1
-  std::vector<bool> hyperstatic;      // one a cluster
+  std::vector<std::int32_t> of_body;              // cluster of each triangle, or -1; of walls whatever it is
+  std::vector<std::array<std::int32_t, 2>> meet;  // clusters that are neighbours
+  std::vector<bool> hyperstatic;                  // one a cluster
 };
 std::unique_ptr<TriangleContent> triangle_clusters_content(TriangleClusterOptions options);
 

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "dem/state/container_region.hpp"
 #include "geometry/base/index.hpp"
 #include "geometry/triangle_mesh.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 constexpr double kMargin = 0.15;    // [mean diameter] around grains and room
 constexpr double kLongWall = 4;     // [mean diameter] a wall grain longer than this is a smooth wall
 constexpr double kWallStrip = 0.7;  // [mean diameter] of a smooth wall that shows
-constexpr double kLidDash = 0.35;   // [mean diameter]
+constexpr double kLidDash = 0.15;   // [mean diameter]
 
 struct Box {
   Vec2 low{{INFINITY, INFINITY}}, high{{-INFINITY, -INFINITY}};
@@ -54,20 +55,10 @@ std::vector<double> grain_diameters(const TrianglePacking& packing) {
   return diameter;
 }
 
-std::optional<Room> room_of(const ContainerScene& c) {
-  switch (c.shape) {
-    case ContainerShape::box:
-      return Room{{{-c.width / 2, 0}}, {{c.width / 2, c.height}}};
-    case ContainerShape::hopper: {
-      const double slope = (c.width - c.opening) / 2 * std::tan(c.angle * std::numbers::pi / 180);
-      return Room{{{-c.width / 2, 0}}, {{c.width / 2, slope + c.height}}};
-    }
-    case ContainerShape::drum:
-      return Room{{{-c.radius, -c.radius}}, {{c.radius, c.radius}}};
-    case ContainerShape::none:
-      break;
-  }
-  return std::nullopt;
+std::optional<Room> room_of(const ContainerScene& container, const Vec2& offset) {
+  if (container.shape == ContainerShape::none) return std::nullopt;
+  const double half = half_width(container);
+  return Room{offset + Vec2{{-half, region_bottom(container)}}, offset + Vec2{{half, region_top(container)}}};
 }
 
 Extent extent_of(const TrianglePacking& packing, const std::optional<Room>& room, double margin) {

@@ -12,11 +12,11 @@ namespace isostat {
 // [cm] of a circle of the grain's area, one a grain.
 std::vector<double> grain_diameters(const TrianglePacking& packing);
 
-// Corners of the inside of a container, as it was built.
+// Corners of the inside of a container; offset: of its origin against where it was built.
 struct Room {
   Vec2 low, high;
 };
-std::optional<Room> room_of(const ContainerScene& container);
+std::optional<Room> room_of(const ContainerScene& container, const Vec2& offset = {});
 
 // Around the grains, walls made of grains and the room; a long smooth wall shows as a strip and is cut where it leads
 // away. `margin` as for disks. Throws std::invalid_argument for a packing without grains.

@@ -22,9 +22,7 @@ RichText length_unit(const ForceReading& reading) { return reading.law_known ? r
 Content forces(const Arguments& arguments, const AnalysisInput& input, const ForceReading& reading, double scale) {
   if (!reading.known) throw InputError(input.path, 0, "--what", "forces", "this file gives no forces; draw grains");
   ForceOptions options;
-  options.convention.threshold = arguments.number("--threshold");
-  const auto width = arguments.value("--width").value_or(options.convention.threshold ? "total" : "normal");
-  options.convention.width = width == "total" ? ForceMeasure::total : ForceMeasure::normal;
+  options.convention = convention_of(arguments);
   options.scale = scale;
   if (reading.law_known) {
     const bool by_attraction = input.state.law.attraction >= scale;
@@ -45,33 +43,15 @@ Content velocity(const AnalysisInput& input, const ForceReading& reading, const 
   return motion_content(std::move(options));
 }
 
-// The n-th vibration mode above the zero modes; only ratios of displacements mean something.
 Content mode(const Arguments& arguments, const AnalysisInput& input, const ForceReading& reading) {
-  const auto number = static_cast<int>(arguments.integer("--mode", 1, 1000).value_or(1));
-  const auto refuse = [&](const std::string& why) { throw InputError(input.path, 0, "--what", "modes", why); };
-  VibrationModes modes;
-  try {
-    modes = vibration_modes(input.packing(), input.network_law({}), law_of(input), number, true);
-  } catch (const std::length_error& error) {
-    refuse(error.what());
-  } catch (const FactorisationFailed& error) {
-    refuse(error.what());
-  }
-  if (modes.displacement.size() < static_cast<std::size_t>(number))
-    refuse("has " + std::to_string(modes.displacement.size()) + " vibration modes above its " +
-           std::to_string(modes.zero_modes) + " zero modes");
-  const std::vector<double>& u = modes.displacement.back();
-  MotionOptions options;
-  for (std::size_t i = 0; i < input.packing().bodies.size(); ++i) {
-    const std::size_t at = i * static_cast<std::size_t>(modes.per_body);
-    options.velocity.push_back({{u[at], u[at + 1]}});
-    options.spin.push_back(modes.per_body > 2 ? u[at + 2] : 0.0);
-  }
-  options.symbol = rich("`u`"), options.spin_name = plain("rotation");
-  options.notes.push_back(rich("`ω`_{" + std::to_string(number) + "} = ") +
-                          number_with_unit(modes.omega[static_cast<std::size_t>(number - 1)],
-                                           reading.law_known ? rich("/`T`_{0}") : RichText{}));
-  return motion_content(std::move(options));
+  DrawnMode mode = drawn_mode(arguments, input, reading.law_known ? rich("/`T`_{0}") : RichText{});
+  return motion_content({std::move(mode.displacement),
+                         std::move(mode.rotation),
+                         rich("`u`"),
+                         plain("rotation"),
+                         {},
+                         {},
+                         {std::move(mode.note)}});
 }
 
 Content clusters(const AnalysisInput& input) {
@@ -156,7 +136,7 @@ RichText caption(const AnalysisInput& input) {
 
 }  // namespace
 
-Drawing drawing_of(const Arguments& arguments, const std::vector<AnalysisInput>& inputs) {
+Drawing drawing_of_disks(const Arguments& arguments, const std::vector<AnalysisInput>& inputs) {
   std::vector<ForceReading> readings;
   for (const AnalysisInput& input : inputs) {
     if (input.packing_3d)

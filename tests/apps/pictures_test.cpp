@@ -1,35 +1,20 @@
 // The look of every picture and plot, held by one approved SVG each in tests/golden/pictures: the same marks in the
 // same order, coordinates to a fiftieth of a point. With ISOSTAT_REGENERATE=1 they are written anew: look at them
 // before they are committed.
-#include <cmath>
 #include <cstdlib>
-#include <regex>
 
 #include "tests/apps/program.hpp"
+#include "tests/support/picture_difference.hpp"
 
 namespace isostat {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double kSamePlace = 0.02;  // [pt]; the last digit written is 0.01
 
 class Pictures : public Program {
  protected:
   static std::string golden(const std::string& name) {
     return (fs::path(ISOSTAT_DATA).parent_path() / "tests/golden/pictures" / name).string();
-  }
-
-  // Where two pictures differ first; empty if they do not.
-  static std::string difference(const std::string& a, const std::string& b) {
-    static const std::regex number("-?[0-9]*\\.?[0-9]+");
-    std::sregex_iterator x(a.begin(), a.end(), number), y(b.begin(), b.end(), number);
-    const std::sregex_iterator end;
-    for (; x != end && y != end; ++x, ++y) {
-      if (x->prefix() != y->prefix()) return "'" + x->prefix().str() + "' is '" + y->prefix().str() + "'";
-      const std::string at = " after '" + x->prefix().str() + "'";
-      if (std::abs(std::stod(x->str()) - std::stod(y->str())) > kSamePlace) return x->str() + " is " + y->str() + at;
-    }
-    return x == end && y == end ? "" : "one has more marks than the other";
   }
 
   // Seven grains in a cell, with forces of both signs, as a state.
@@ -44,7 +29,7 @@ class Pictures : public Program {
     if (std::getenv("ISOSTAT_REGENERATE"))
       fs::copy_file(in_folder(name), golden(name), fs::copy_options::overwrite_existing);
     ASSERT_TRUE(fs::exists(golden(name))) << name;
-    EXPECT_EQ(difference(content(golden(name)), content(in_folder(name))), "") << name;
+    EXPECT_EQ(picture_difference(content(golden(name)), content(in_folder(name))), "") << name;
   }
 };
 
