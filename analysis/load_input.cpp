@@ -14,6 +14,7 @@ AnalysisInput load_input(const std::string& path, const AnalysisOptions& options
   input.state = std::move(file.state);
   input.packing_3d = std::move(file.packing_3d);
   input.links_given = file.links_given;
+  if (file.triangles) input.set_triangles(std::move(*file.triangles), file.corners);
   if (options.cell_free && !input.has_cell())
     throw InputError(path, 0, "--cell", "free", "needs a periodic cell; this packing is isolated");
   return input;

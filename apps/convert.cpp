@@ -14,6 +14,7 @@
 #include "dem/files/packing_file.hpp"
 #include "dem/files/state_file.hpp"
 #include "dem/input_error.hpp"
+#include "dem/triangles/network_file.hpp"
 
 namespace isostat {
 namespace {
@@ -71,6 +72,12 @@ int convert_command(int argc, char** argv) {
   const PackingFile file = read_packing(input_path, reading);
   if (!file.state.packing.beams.empty() && !output.ends_with(".net") && !output.ends_with(".vtp"))
     throw InputError(input_path, 0, "-o", output, "beams are kept by .net files only (and drawn in .vtp)");
+  if (file.triangles) {
+    if (!output.ends_with(".net"))
+      throw InputError(input_path, 0, "-o", output, "triangles are kept by .net files only");
+    write_files_atomically({{output, triangle_network_text(file.triangles->packing, file.corners)}});
+    return exit_done;
+  }
   if (output.ends_with(".h5")) {
     if (file.packing_3d)
       throw InputError(input_path, 0, "-o", output, "a state file holds planar packings; this one is in 3D");

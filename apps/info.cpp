@@ -1,4 +1,5 @@
 // isostat info STATE: what a state file is, as one JSON object on stdout.
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -83,19 +84,62 @@ Json si_json(const State<Disks>& state, const Scales& s) {
           {"time", number(state.time * si.time)}};
 }
 
-Json info_json(const State<Disks>& state, const StateFile& file) {
+// The same for triangles, in cm, g, s. A limit that no beam reaches is null.
+Json law_json(const TriangleLaw& law) {
+  const auto& [contact, modulus, overlap_length, friction, tangential_stiffness, damping, failure, tension, shear,
+               bending, stretch, angle] = law;
+  return {{"contact", kContactLawNames[static_cast<std::size_t>(contact)]},
+          {"modulus", modulus},
+          {"overlap_length", overlap_length},
+          {"friction", friction},
+          {"tangential_stiffness", tangential_stiffness},
+          {"damping", damping},
+          {"failure", kBeamFailureNames[static_cast<std::size_t>(failure)]},
+          {"limit_tension", number(tension)},
+          {"limit_shear", number(shear)},
+          {"limit_bending", number(bending)},
+          {"limit_stretch", number(stretch)},
+          {"limit_angle", number(angle)}};
+}
+
+// What only one system has: numbers of bodies, and what ends the report.
+void add_size(Json&, const State<Disks>&) {}
+void add_size(Json& json, const State<TriangleGrains>& state) {
+  const TrianglePacking& p = state.packing;
+  const auto free = std::count(p.grains.part.begin(), p.grains.part.end(), GrainPart::free);
+  json["grains"] = free;
+  json["wall_grains"] = static_cast<std::int64_t>(p.grains.size()) - free;
+  json["triangles"] = p.bodies.size();
+  json["beams"] = p.beams.size();
+  json["overlaps"] = p.overlaps.size();
+  json["events"] = p.events.size();
+  json["grains_left"] = state.surroundings.grains_left;
+}
+void add_scales(Json& json, const State<Disks>& state) {
   const Scales s = scales(state);
+  json["scales"] = scales_json(s);
+  if (state.scene.units) json["si"] = si_json(state, s);
+}
+void add_scales(Json& json, const State<TriangleGrains>& state) {
+  const double dt = state.time_step;
+  json["scales"] = {{"dt", dt > 0 ? Json(dt) : Json()},
+                    {"omega_max", dt > 0 ? Json(state.scene.step.fraction / dt) : Json()}};
+}
+
+template <class System>
+Json info_json(const State<System>& state, const StateFile& file) {
   Json json;
   json["format_version"] = kStateFormatVersion;
   json["hash"] = file.hash;
+  json["system"] = System::name;
   json["cell"] = nullptr;
   if (state.packing.cell) json["cell"] = state.packing.cell->length.c;
   json["time"] = state.time;
   json["seed"] = state.seed;
+  add_size(json, state);
   json["scene"] = scene_json(state.scene);
   json["law"] = law_json(state.law);
-  json["scales"] = scales_json(s);
-  if (state.scene.units) json["si"] = si_json(state, s);
+  add_scales(json, state);
   json["provenance"] = {{"version", file.provenance.version},
                         {"compiler", file.provenance.compiler},
                         {"command", file.provenance.command}};
@@ -107,7 +151,7 @@ Json info_json(const State<Disks>& state, const StateFile& file) {
 int info_command(int argc, char** argv) {
   const Arguments arguments(argc, argv, {},
                             {"STATE",
-                             "Prints what a state file is as JSON: hash of the physical state, cell, scene, "
+                             "Prints what a state file is as JSON: hash of the physical state, system, cell, scene, "
                              "dimensionless numbers (in SI too if the scene has [units]), provenance."});
   arguments.require_inputs(1, 1, "one state file");
   const StateFile file = read_state_file(arguments.inputs()[0]);

@@ -28,7 +28,7 @@ struct PackJob {
   std::vector<std::string> overrides;
   std::uint64_t seed = 1;
   int samples = 1, threads = 1;
-  double max_time = 0;  // [T0]
+  double max_time = 0;  // [T0], triangles [s]
   bool resume = false;
 };
 
@@ -47,9 +47,27 @@ std::string command_text(const PackJob& job) {
   return text;
 }
 
+// What marches: the fixed or driven grains of walls are left out.
+struct Bulk {
+  std::int64_t grains = 0, triangles = 0;
+};
+Bulk bulk(const State<Disks>& state) { return {static_cast<std::int64_t>(state.packing.bodies.size()), 0}; }
+Bulk bulk(const State<TriangleGrains>& state) {
+  const Grains& g = state.packing.grains;
+  Bulk b;
+  for (std::size_t k = 0; k < g.size(); ++k)
+    if (g.part[k] == GrainPart::free) ++b.grains, b.triangles += g.begin[k + 1] - g.begin[k];
+  return b;
+}
+
+// Of all samples: steps, and steps times what was there at the end.
+struct Totals {
+  RunOutcome run;
+  std::int64_t grain_steps = 0, triangle_steps = 0;
+};
+
 // Adds the run of one sample to the timings of all; the exit code.
-ExitCode run_one(const PackJob& job, int k, ProgressLine& line, RunOutcome& total, std::int64_t& grain_steps,
-                 std::mutex& lock) {
+ExitCode run_one(const PackJob& job, int k, ProgressLine& line, Totals& total, std::mutex& lock) {
   const std::string output = numbered(job.output, k, job.samples);
   const SampleJob sample{job.scene,
                          job.seed + static_cast<std::uint64_t>(k),
@@ -59,33 +77,44 @@ ExitCode run_one(const PackJob& job, int k, ProgressLine& line, RunOutcome& tota
                          job.samples > 1 ? 1 : job.threads,
                          job.max_time,
                          job.resume};
-  std::int64_t grains = 0;
+  Bulk size;
   SampleWatch watch;
   watch.interrupted = InterruptGuard::requested;
   watch.progress = [&](const Progress& p) { line.update(p, job.scene, k); };
   watch.ended = [&](const AnyState& any, const SampleOutcome&) {
-    grains = std::visit([](const auto& s) { return static_cast<std::int64_t>(s.packing.bodies.size()); }, any);
+    size = std::visit([](const auto& s) { return bulk(s); }, any);
   };
   const SampleOutcome outcome = run_sample(sample, watch);
   const std::scoped_lock hold(lock);
-  total.steps += outcome.run.steps, total.times += outcome.run.times;
-  total.cpu_seconds += outcome.run.cpu_seconds;
-  total.wall_seconds = std::max(total.wall_seconds, outcome.run.wall_seconds);
-  grain_steps += outcome.run.steps * grains;
+  total.run.steps += outcome.run.steps, total.run.times += outcome.run.times;
+  total.run.cpu_seconds += outcome.run.cpu_seconds;
+  total.run.wall_seconds = std::max(total.run.wall_seconds, outcome.run.wall_seconds);
+  total.grain_steps += outcome.run.steps * size.grains;
+  total.triangle_steps += outcome.run.steps * size.triangles;
   for (const std::string& text : outcome.messages) std::cerr << "isostat pack: " << output << ": " << text << '\n';
   return outcome.code;
+}
+
+std::string text(std::optional<double> x) {
+  char buffer[32];
+  if (!x) return "-";
+  std::snprintf(buffer, sizeof buffer, "%.4g", *x);
+  return buffer;
+}
+
+void print_scales(const PackJob& job, const State<TriangleGrains>& state) {
+  const Bulk b = bulk(state);
+  const std::size_t walls = state.packing.grains.size() - static_cast<std::size_t>(b.grains);
+  std::cerr << b.grains << " grains of " << b.triangles << " triangles";
+  if (walls > 0) std::cerr << ", " << walls << " grains of walls";
+  std::cerr << "  omega_max " << text(job.scene.step.fraction / state.time_step) << " 1/s  dt " << text(state.time_step)
+            << " s; units cm, g, s\n";
 }
 
 void print_scales(const PackJob& job, const State<Disks>& state) {
   State<Disks> first = state;
   first.imposed_stress = job.scene.stages.empty() ? ImposedStress{} : imposed_stress(job.scene.stages.front());
   const Scales s = scales(first);
-  auto text = [](std::optional<double> x) {
-    char buffer[32];
-    if (!x) return std::string("-");
-    std::snprintf(buffer, sizeof buffer, "%.4g", *x);
-    return std::string(buffer);
-  };
   std::cerr << "kappa " << text(s.kappa) << "  P* " << text(s.reduced_pressure) << "  h0/D0 "
             << text(s.overlap_over_range) << "  e_N " << text(s.restitution) << "  V* " << text(s.velocity) << "  T0 "
             << text(s.time) << "  dt " << text(s.time_step) << " T0  dt/dt_critical "
@@ -98,27 +127,28 @@ void print_scales(const PackJob& job, const State<Disks>& state) {
   }
 }
 
-void write_timings(const std::string& path, const RunOutcome& total, std::int64_t grain_steps) {
+void write_timings(const std::string& path, const Totals& total, SceneSystem system) {
   nlohmann::ordered_json stages;
   for (std::size_t k = 0; k < StepTimes::kNames.size(); ++k)
-    stages[std::string(StepTimes::kNames[k])] = total.times.seconds[k];
-  const nlohmann::ordered_json json = {{"grain_steps", grain_steps},
-                                       {"steps", total.steps},
-                                       {"cpu_seconds", total.cpu_seconds},
-                                       {"wall_seconds", total.wall_seconds},
-                                       {"stages", stages}};
+    stages[std::string(StepTimes::kNames[k])] = total.run.times.seconds[k];
+  nlohmann::ordered_json json = {{"grain_steps", total.grain_steps}};
+  if (system == SceneSystem::triangles) json["triangle_steps"] = total.triangle_steps;
+  json["steps"] = total.run.steps;
+  json["cpu_seconds"] = total.run.cpu_seconds;
+  json["wall_seconds"] = total.run.wall_seconds;
+  json["stages"] = stages;
   write_file_atomically(path, json.dump(2) + "\n");
 }
 
 // One thread a sample, at most `threads` at a time. The worst exit code wins; bad input of one stops all.
-int run_samples(const PackJob& job, RunOutcome& total, std::int64_t& grain_steps) {
+int run_samples(const PackJob& job, Totals& total) {
   ProgressLine line(static_cast<int>(job.scene.stages.size()), job.samples);
   std::mutex lock;
   std::vector<ExitCode> codes(static_cast<std::size_t>(job.samples), exit_done);
   Team team(std::min(job.threads, job.samples));
   team.run(job.samples, [&](int k) {
     codes[static_cast<std::size_t>(k)] =
-        InterruptGuard::requested() ? exit_interrupted : run_one(job, k, line, total, grain_steps, lock);
+        InterruptGuard::requested() ? exit_interrupted : run_one(job, k, line, total, lock);
   });
   return *std::max_element(codes.begin(), codes.end());
 }
@@ -132,7 +162,7 @@ int pack_command(int argc, char** argv) {
                         {"--threads", "N", "threads; the result does not depend on them (default 1)"},
                         {"--samples", "N", "run N samples with seeds N, N+1, ... -> STATE.0001.h5 ..."},
                         {"--set", "KEY=VALUE", "override a scene key", true},
-                        {"--max-time", "T", "stop, unfinished, when the run's time reaches T [T0]"},
+                        {"--max-time", "T", "stop, unfinished, when the run's time reaches T [T0; triangles: s]"},
                         {"--resume", "", "go on from STATE.h5.partial"},
                         {"--timings", "FILE.json", "where the time of the step loop went"}},
                        {"SCENE.toml -o STATE.h5", "Runs the stages of a scene and writes the state it ends in."});
@@ -145,7 +175,7 @@ int pack_command(int argc, char** argv) {
   job.threads = static_cast<int>(args.integer("--threads", 1, 1024).value_or(1));
   job.max_time = args.number("--max-time").value_or(0);
   if (args.has("--max-time") && !(job.max_time > 0))
-    throw InputError("command line", 0, "--max-time", *args.value("--max-time"), "must be positive [T0]");
+    throw InputError("command line", 0, "--max-time", *args.value("--max-time"), "must be positive");
   job.resume = args.has("--resume");
   job.scene = read_scene(job.scene_path, job.overrides);
   job.seed =
@@ -159,10 +189,9 @@ int pack_command(int argc, char** argv) {
 
   const InterruptGuard guard;
   std::visit([&job](const auto& state) { print_scales(job, state); }, initial_state(job.scene, job.seed));
-  RunOutcome total;
-  std::int64_t grain_steps = 0;
-  const int code = run_samples(job, total, grain_steps);
-  if (const auto path = args.value("--timings")) write_timings(*path, total, grain_steps);
+  Totals total;
+  const int code = run_samples(job, total);
+  if (const auto path = args.value("--timings")) write_timings(*path, total, job.scene.system);
   return code;
 }
 

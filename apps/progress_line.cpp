@@ -27,10 +27,24 @@ std::string clock_text(double seconds) {
   return text;
 }
 
+std::string time_text(double time, SceneSystem system) {
+  char text[48];
+  const bool disks = system == SceneSystem::disks;
+  std::snprintf(text, sizeof text, disks ? "t %.1f %s" : "t %.4f %s", time, std::string(time_unit(system)).c_str());
+  return text;
+}
+
 std::string solid_fraction_text(double phi) {
   char text[32];
   std::snprintf(text, sizeof text, "  Phi %.4f", phi);
   return std::isnan(phi) ? std::string() : text;
+}
+
+std::string missing_text(const Progress& p, const StageScene& stage) {
+  if (ends_with_event(stage.until)) return "until " + std::string(name(stage.until));
+  char text[96];
+  std::snprintf(text, sizeof text, "%s %.3g x tolerance", p.last.name.c_str(), p.last.ratio);
+  return text;
 }
 
 ProgressLine::ProgressLine(int stages, int samples)
@@ -41,6 +55,7 @@ ProgressLine::~ProgressLine() {
 }
 
 // A timed stage: by proportion. Equilibrium: by the exponential decline of the criterion furthest from its tolerance.
+// When an event comes nobody knows.
 double ProgressLine::seconds_left(const Progress& p, const StageScene& stage) {
   const double t = wall_seconds();
   if (p.stage != shown_stage_)
@@ -49,6 +64,7 @@ double ProgressLine::seconds_left(const Progress& p, const StageScene& stage) {
     const double done = p.time - first_time_;
     return done > 0 ? (t - first_at_) * (stage.time - done) / done : NAN;
   }
+  if (ends_with_event(stage.until)) return NAN;
   const double log_ratio = std::log(std::max(p.last.ratio, 1e-300));
   const double slope = (first_log_ratio_ - log_ratio) / (t - first_at_);
   const double left = slope > 0 ? std::max(0.0, log_ratio) / slope : NAN;
@@ -63,12 +79,13 @@ void ProgressLine::update(const Progress& p, const Scene& scene, int sample) {
   const double t = wall_seconds();
   if (t - last_shown_ < kRefresh) return;
   last_shown_ = t;
-  const double left = seconds_left(p, scene.stages[static_cast<std::size_t>(p.stage)]);
+  const StageScene& stage = scene.stages[static_cast<std::size_t>(p.stage)];
+  const double left = seconds_left(p, stage);
   std::string head;
   if (samples_ > 1) head = "sample " + std::to_string(sample + 1) + "/" + std::to_string(samples_) + "  ";
-  std::fprintf(stderr, "\r\033[K%sstage %d/%d  t %.1f T0%s  missing: %s %.3g x tolerance  %s, ETA %s", head.c_str(),
-               p.stage + 1, stages_, p.time, solid_fraction_text(p.solid_fraction).c_str(), p.last.name.c_str(),
-               p.last.ratio, clock_text(t - start_).c_str(), clock_text(left).c_str());
+  std::fprintf(stderr, "\r\033[K%sstage %d/%d  %s%s  missing: %s  %s, ETA %s", head.c_str(), p.stage + 1, stages_,
+               time_text(p.time, scene.system).c_str(), solid_fraction_text(p.solid_fraction).c_str(),
+               missing_text(p, stage).c_str(), clock_text(t - start_).c_str(), clock_text(left).c_str());
   std::fflush(stderr);
 }
 

@@ -7,8 +7,11 @@
 
 namespace isostat {
 
-std::string clock_text(double seconds);       // 02:35, 3h07; --:-- if not known
-std::string solid_fraction_text(double phi);  // "  Phi 0.8123"; nothing without a cell
+std::string clock_text(double seconds);                  // 02:35, 3h07; --:-- if not known
+std::string time_text(double time, SceneSystem system);  // "t 12.5 T0", "t 0.1250 s"
+std::string solid_fraction_text(double phi);             // "  Phi 0.8123"; nothing without a cell
+// What the stage waits for: the criterion of equilibrium furthest from its tolerance, or an event.
+std::string missing_text(const Progress& progress, const StageScene& stage);
 
 class ProgressLine {
  public:

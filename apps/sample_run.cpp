@@ -14,6 +14,7 @@
 #include "dem/input_error.hpp"
 #include "dem/run_error.hpp"
 #include "dem/scene/text.hpp"
+#include "dem/triangles/series.hpp"
 
 namespace isostat {
 namespace {
@@ -45,8 +46,9 @@ class SeriesFile {
   std::ofstream out_;
 };
 
-// What solves the statics of a system.
-NewtonFinishing static_solver(const State<Disks>&) { return NewtonFinishing(); }
+// What solves the statics of a system; nothing does for triangles.
+std::unique_ptr<StaticSolver<Disks>> static_solver(const State<Disks>&) { return std::make_unique<NewtonFinishing>(); }
+std::unique_ptr<StaticSolver<TriangleGrains>> static_solver(const State<TriangleGrains>&) { return nullptr; }
 
 class SampleRun {
  public:
@@ -66,12 +68,12 @@ class SampleRun {
   SampleOutcome march(State<System>& state) {
     SampleOutcome outcome;
     const RunHooks<System> hooks = make_hooks(state);
-    auto finisher = static_solver(state);
+    const auto finisher = static_solver(state);
     SolverOptions options;
     options.threads = job_.threads;
     options.energies = job_.scene.output.energies;
     try {
-      outcome.run = run_stages(state, options, hooks, &finisher);
+      outcome.run = run_stages(state, options, hooks, finisher.get());
     } catch (const RunError& e) {
       outcome.code = exit_unfinished;
       outcome.blew_up = true;
@@ -81,8 +83,9 @@ class SampleRun {
     }
     if (outcome.run.interrupted) {
       outcome.code = exit_interrupted;
-      outcome.messages = {"interrupted at t = " + std::to_string(state.time) +
-                          " T0; the same command with --resume goes on from " + partial()};
+      outcome.messages = {"interrupted at t = " + std::to_string(state.time) + " " +
+                          std::string(time_unit(job_.scene.system)) + "; the same command with --resume goes on from " +
+                          partial()};
       end(state, outcome, partial());
       return outcome;
     }

@@ -20,7 +20,7 @@ struct SampleJob {
   std::string series;   // CSV of the time series; empty: none
   std::string command;  // provenance: what makes this state again
   int threads = 1;
-  double max_time = 0;  // [T0] 0: no limit
+  double max_time = 0;  // [T0], triangles [s]; 0: no limit
   bool resume = false;  // go on from the partial file if there is one
 };
 

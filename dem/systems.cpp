@@ -3,10 +3,19 @@
 #include "dem/disks/check.hpp"
 #include "dem/disks/keys.hpp"
 #include "dem/disks/sample.hpp"
+#include "dem/triangles/sample.hpp"
 
 namespace isostat {
 
-AnyState initial_state(const Scene& scene, std::uint64_t seed) { return initial_disks(scene, seed); }
+AnyState initial_state(const Scene& scene, std::uint64_t seed) {
+  switch (scene.system) {
+    case SceneSystem::disks:
+      break;
+    case SceneSystem::triangles:
+      return initial_triangles(scene, seed);
+  }
+  return initial_disks(scene, seed);
+}
 
 std::vector<SceneKey> system_keys() { return disk_keys(); }
 

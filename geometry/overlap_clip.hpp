@@ -26,6 +26,7 @@ struct TriangleLanes {
 template <class V>
 struct OverlapLanes {
   V area, gradient_x, gradient_y, rotation_a, rotation_b, chord;
+  V point_x, point_y;  // mean of the boundary, inside the overlap; relative to corner 0 of A
 };
 
 template <class V>
@@ -36,24 +37,6 @@ template <class V>
 ISOSTAT_INLINE V dot_lanes(V ax, V ay, V bx, V by) {
   return mul_add<V>(ax, bx, ay * by);
 }
-
-// 1/x to an ulp or two. Where eight divisions take 16 cycles, an estimate and two Newton steps are faster.
-template <class V>
-struct Reciprocal {
-  ISOSTAT_INLINE static V of(V x) { return V(1.0) / x; }
-};
-#if defined(__AVX512F__)
-template <>
-struct Reciprocal<Native> {
-  ISOSTAT_INLINE static Native of(Native x) {
-    const __m512d v = static_cast<__m512d>(x), one = _mm512_set1_pd(1.0);
-    __m512d r = _mm512_rcp14_pd(v);
-    r = _mm512_fmadd_pd(r, _mm512_fnmadd_pd(v, r, one), r);
-    r = _mm512_fmadd_pd(r, _mm512_fnmadd_pd(v, r, one), r);
-    return Native(r);
-  }
-};
-#endif
 
 // What the three half-planes of one side leave of an edge, in the edge's own coordinate.
 template <class V>
@@ -96,7 +79,7 @@ ISOSTAT_INLINE OverlapLanes<V> overlap_lanes(const TriangleLanes<V>& a, const Tr
 #pragma GCC unroll 3
     for (int e = 0; e < 3; ++e) {
       const V safe = turn[e] + tiny;
-      const V t = minus_c[e] * Reciprocal<V>::of(safe);
+      const V t = minus_c[e] / safe;
       const V s = mul_add<V>(t, along[e], foot[e]);
       const auto positive = safe > zero, negative = safe < zero;
       on_a[e].cut(positive, negative, t);
@@ -105,7 +88,7 @@ ISOSTAT_INLINE OverlapLanes<V> overlap_lanes(const TriangleLanes<V>& a, const Tr
       else
         on_b.cut(negative, positive, s);
     }
-    const V inverse_square = Reciprocal<V>::of(square);
+    const V inverse_square = one / square;
     length_b[f] = max(on_b.high - on_b.low, zero) * inverse_square;
     const V middle = half * inverse_square * (on_b.low + on_b.high) * length_b[f];
     weight = weight + length_b[f];
@@ -122,7 +105,7 @@ ISOSTAT_INLINE OverlapLanes<V> overlap_lanes(const TriangleLanes<V>& a, const Tr
     mean_x = mul_add<V>(middle, ux[e], mean_x), mean_y = mul_add<V>(middle, uy[e], mean_y);
   }
   mean_x = mul_add<V>(length_a[1], p1x, mean_x), mean_y = mul_add<V>(length_a[1], p1y, mean_y);
-  const V inverse_weight = Reciprocal<V>::of(weight);
+  const V inverse_weight = one / weight;
   const V mx = mean_x * inverse_weight, my = mean_y * inverse_weight;  // a point inside the overlap
   length_a[2] = -length_a[2];                                          // walked backwards
 
@@ -147,7 +130,9 @@ ISOSTAT_INLINE OverlapLanes<V> overlap_lanes(const TriangleLanes<V>& a, const Tr
           -sum_x,
           -(moment + dot_lanes(arm_ax, arm_ay, sum_x, sum_y)),
           moment + dot_lanes(arm_bx, arm_by, sum_x, sum_y),
-          sqrt(dot_lanes(sum_x, sum_y, sum_x, sum_y))};
+          sqrt(dot_lanes(sum_x, sum_y, sum_x, sum_y)),
+          mx,
+          my};
 }
 
 }  // namespace isostat::kernel

@@ -26,7 +26,8 @@ inline constexpr Color kCompressive = rgb(0xd7191c), kTensile = rgb(0x12964a), k
 // Disks: plain, with thin outline; rattlers grey (Fig. 2); only touched by links below the threshold, light grey (Fig.
 // 11).
 inline constexpr Color kDisk = rgb(0xffffff), kDiskOutline = rgb(0x787878), kRattler = rgb(0xa8a8a8),
-                       kUnstressed = rgb(0xdedede), kGrain = rgb(0xecdcb9), kGrainOutline = rgb(0x7d6b45);
+                       kUnstressed = rgb(0xdedede), kGrain = rgb(0xecdcb9), kGrainOutline = rgb(0x7d6b45),
+                       kWall = rgb(0xc3c9d1);
 
 // Distinguishable also for the most common colour blindness, and in order of use.
 inline constexpr std::array<Color, 8> kCurves = {rgb(0x1f5fa8), rgb(0xd95f02), rgb(0x1b8a5a), rgb(0x8e3b9e),

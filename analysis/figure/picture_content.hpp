@@ -1,22 +1,29 @@
 // What a picture of a packing shows.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "analysis/figure/force_convention.hpp"
 #include "analysis/figure/legend.hpp"
+#include "analysis/figure/motion_marks.hpp"
 #include "analysis/figure/picture_pen.hpp"
 
 namespace isostat {
 
-class PictureContent {
+// Packing and pen of a system.
+template <class Packing, class Pen>
+class ContentOf {
  public:
-  virtual ~PictureContent() = default;
-  virtual double margin(const Packing<2>&) const { return 0; }  // [length] needed around an isolated packing
-  virtual void draw(Canvas& canvas, const PicturePen& pen) const = 0;
-  virtual std::vector<LegendItem> legend(const PicturePen& pen, double em) const = 0;  // em: text size [pt]
+  virtual ~ContentOf() = default;
+  virtual double margin(const Packing&) const { return 0; }  // [length] needed around an isolated packing
+  virtual void draw(Canvas& canvas, const Pen& pen) const = 0;
+  virtual std::vector<LegendItem> legend(const Pen& pen, double em) const = 0;  // em: text size [pt]
 };
+
+using PictureContent = ContentOf<Packing<2>, PicturePen>;
 
 // Disks, and the links between them as thin lines, distant pairs in blue.
 std::unique_ptr<PictureContent> grains_content();
@@ -35,13 +42,6 @@ struct ForceOptions {
 std::unique_ptr<PictureContent> forces_content(ForceOptions options);
 
 // Arrows from the centres, and disks coloured by spin.
-struct MotionOptions {
-  std::vector<Vec2> velocity;  // one a body
-  std::vector<double> spin;
-  RichText symbol, spin_name;      // in the legend: `v`, "spin"
-  RichText speed_unit, spin_unit;  // may be empty
-  std::vector<RichText> notes;     // more legend
-};
 std::unique_ptr<PictureContent> motion_content(MotionOptions options);
 
 // Rigid clusters: one colour each, different from the neighbours'; strong where the cluster is hyperstatic, pale where
@@ -62,7 +62,11 @@ struct PoreMapOptions {
   std::vector<PorePatch> pores;
   bool percolating = false;
   RichText length_unit;
+  std::optional<std::array<double, 2>> range =
+      std::nullopt;  // [length] radii at the ends of the colours; none: of these pores
 };
+// Smallest and largest radius; 0 without pores.
+std::array<double, 2> radius_range(const std::vector<PorePatch>& pores);
 std::unique_ptr<PictureContent> pores_content(PoreMapOptions options);
 
 }  // namespace isostat

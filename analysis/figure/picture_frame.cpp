@@ -12,24 +12,44 @@ constexpr double kMargin = 0.1;                             // [mean diameter] a
 
 }  // namespace
 
-PictureFrame::PictureFrame(const Packing<2>& packing, double margin) : cell_(packing.cell) {
+Extent extent_of(const Packing<2>& packing, double margin) {
   const Bodies<2>& b = packing.bodies;
   if (b.size() == 0) throw std::invalid_argument("a picture needs grains");
-  for (const double r : b.radius) mean_diameter_ += 2 * r / static_cast<double>(b.size());
-  if (cell_) {
-    size_ = cell_->length;
-  } else {
-    Vec2 low = b.position[0], high = low;
-    for (std::size_t i = 0; i < b.size(); ++i)
-      for (int k = 0; k < 2; ++k) {
-        low[k] = std::min(low[k], b.position[i][k] - b.radius[i]);
-        high[k] = std::max(high[k], b.position[i][k] + b.radius[i]);
-      }
-    margin += kMargin * mean_diameter_;
-    origin_ = low - Vec2{{margin, margin}};
-    size_ = high - low + Vec2{{2 * margin, 2 * margin}};
+  Extent extent;
+  extent.cell = packing.cell;
+  for (const double r : b.radius) extent.diameter += 2 * r / static_cast<double>(b.size());
+  if (packing.cell) {
+    extent.high = packing.cell->length;
+    return extent;
   }
-  const double longer = std::max(size_[0], size_[1]);
+  extent.low = extent.high = b.position[0];
+  for (std::size_t i = 0; i < b.size(); ++i)
+    for (int k = 0; k < 2; ++k) {
+      extent.low[k] = std::min(extent.low[k], b.position[i][k] - b.radius[i]);
+      extent.high[k] = std::max(extent.high[k], b.position[i][k] + b.radius[i]);
+    }
+  margin += kMargin * extent.diameter;
+  extent.low -= Vec2{{margin, margin}};
+  extent.high += Vec2{{margin, margin}};
+  return extent;
+}
+
+Extent around(const Extent& a, const Extent& b) {
+  Extent whole = a;
+  for (int k = 0; k < 2; ++k)
+    whole.low[k] = std::min(a.low[k], b.low[k]), whole.high[k] = std::max(a.high[k], b.high[k]);
+  whole.diameter = std::max(a.diameter, b.diameter);
+  if (whole.cell) whole.cell->length = whole.high;
+  return whole;
+}
+
+PictureFrame::PictureFrame(const Extent& own, const Extent& whole)
+    : cell_(own.cell), cut_(own.cut), mean_diameter_(whole.diameter) {
+  const Vec2 room = whole.high - whole.low;
+  origin_ = cell_ ? own.low : whole.low;
+  size_ = cell_ ? own.high - own.low : room;
+  inset_ = 0.5 * (room - size_);
+  const double longer = std::max(room[0], room[1]);
   scale_ = std::clamp(kDiameterOnPage / mean_diameter_ * longer, kSmallestEdge, kLargestEdge) / longer;
 }
 

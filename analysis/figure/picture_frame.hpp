@@ -8,20 +8,37 @@
 
 namespace isostat {
 
+// What a packing takes up, in its own units of length.
+struct Extent {
+  std::optional<PeriodicCell<2>> cell;  // low is then the origin
+  Vec2 low{}, high{};                   // corners of the window
+  double diameter = 0;                  // mean of the grains
+  bool cut = false;                     // what stands out of the window is cut off; a cell always cuts
+};
+
+// `margin` is left around an isolated packing, beside a narrow one of its own. Throws std::invalid_argument for a
+// packing without bodies.
+Extent extent_of(const Packing<2>& packing, double margin = 0);
+
+// Room for both, one over the other; cells of two sizes have their centres in common.
+Extent around(const Extent& a, const Extent& b);
+
 class PictureFrame {
  public:
-  // `margin` [length of the packing] is left around an isolated packing, beside a narrow one of its own. Throws
-  // std::invalid_argument for a packing without bodies.
-  explicit PictureFrame(const Packing<2>& packing, double margin = 0);
+  explicit PictureFrame(const Extent& own) : PictureFrame(own, own) {}
+  // One of several pictures of one scale: on a page for `whole`, which has room for `own`.
+  PictureFrame(const Extent& own, const Extent& whole);
 
-  void place(const Vec2& top_left) { place_ = top_left; }
-  double scale() const { return scale_; }  // [pt per unit length]
+  void place(const Vec2& top_left) { place_ = top_left + scale_ * inset_; }  // [pt] of the room for the whole
+  double scale() const { return scale_; }                                    // [pt per unit length]
   Rect box() const { return {place_[0], place_[1], scale_ * size_[0], scale_ * size_[1]}; }
+  Vec2 room() const { return scale_ * (size_ + 2 * inset_); }  // [pt] for the whole
   bool periodic() const { return cell_.has_value(); }
+  bool cuts() const { return cut_ || periodic(); }
   double mean_diameter() const { return mean_diameter_; }
 
   Vec2 page(const Vec2& r) const {  // [pt] of a point of the packing; y turns over
-    return {place_[0] + scale_ * (r[0] - origin_[0]), place_[1] + scale_ * (size_[1] - (r[1] - origin_[1]))};
+    return {{place_[0] + scale_ * (r[0] - origin_[0]), place_[1] + scale_ * (size_[1] - (r[1] - origin_[1]))}};
   }
   Vec2 wrap(const Vec2& r) const { return cell_ ? cell_->wrap(r) : r; }
 
@@ -36,7 +53,9 @@ class PictureFrame {
 
  private:
   std::optional<PeriodicCell<2>> cell_;
+  bool cut_ = false;
   Vec2 origin_{}, size_{};  // [length of the packing] lower left corner and edges of the window
+  Vec2 inset_{};            // [length of the packing] on each side, to the whole
   double mean_diameter_ = 0, scale_ = 1;
   Vec2 place_{};
 };

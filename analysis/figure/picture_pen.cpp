@@ -9,44 +9,29 @@
 
 namespace isostat {
 
-PicturePen::PicturePen(const Packing<2>& packing, double margin) : packing_(packing), frame_(packing, margin) {
+PicturePen::PicturePen(const Packing<2>& packing, const PictureFrame& frame) : FramePen(frame), packing_(packing) {
   for (const double r : packing.bodies.radius) largest_diameter_ = std::max(largest_diameter_, 2 * r);
 }
 
-Stroke PicturePen::outline(const Color& color) const {
+Stroke FramePen::outline(const Color& color) const {
   return {diameter() < 6 ? blend(color, kWhite, 0.55) : color, std::clamp(0.04 * diameter(), 0.15, 0.8), {}};
 }
 
-void PicturePen::disks(Canvas& canvas, const std::vector<std::size_t>& style, const std::vector<Paint>& paints) const {
-  const Bodies<2>& b = packing_.bodies;
-  std::vector<std::vector<DiskMark>> batches(paints.size());
-  for (std::size_t i = 0; i < b.size(); ++i) {
-    const Vec2 r = frame_.wrap(b.position[i]), reach{{b.radius[i], b.radius[i]}};
-    frame_.for_visible_images(r - reach, r + reach, [&](const Vec2& offset) {
-      batches[style[i]].push_back({frame_.page(r + offset), b.radius[i] * frame_.scale()});
-    });
-  }
-  for (std::size_t k = 0; k < batches.size(); ++k) canvas.disks(batches[k], paints[k]);
-}
-
-void PicturePen::links(Canvas& canvas, const std::vector<DrawnLink>& links, const Color& color) const {
+void FramePen::bars(Canvas& canvas, const std::vector<Bar>& bars, const Color& color) const {
   std::vector<SegmentMark> marks;
-  for (const DrawnLink& drawn : links) {
-    const Link<2>* link = drawn.link;
-    const double width = drawn.width;  // [pt] no structured binding: clang 14 captures none in a lambda
-    const Vec2 from = frame_.wrap(packing_.bodies.position[idx(link->i)]);
-    const Vec2 to = from + ends(packing_, *link).branch;
-    const double half = width / (2 * frame_.scale());
+  for (const Bar& bar : bars) {
+    const Vec2 from = frame_.wrap(bar.from), to = from + (bar.to - bar.from);
+    const double half = bar.width / (2 * frame_.scale());
     Vec2 low, high;
     for (int k = 0; k < 2; ++k) low[k] = std::min(from[k], to[k]) - half, high[k] = std::max(from[k], to[k]) + half;
     frame_.for_visible_images(low, high, [&](const Vec2& offset) {
-      marks.push_back({frame_.page(from + offset), frame_.page(to + offset), width});
+      marks.push_back({frame_.page(from + offset), frame_.page(to + offset), bar.width});
     });
   }
   canvas.segments(marks, color);
 }
 
-void PicturePen::areas(Canvas& canvas, const std::vector<const Polygon*>& areas, const Color& fill) const {
+void FramePen::areas(Canvas& canvas, const std::vector<const Polygon*>& areas, const Paint& paint) const {
   std::vector<Polygon> marks;
   for (const Polygon* area : areas) {
     if (area->empty()) continue;
@@ -59,7 +44,28 @@ void PicturePen::areas(Canvas& canvas, const std::vector<const Polygon*>& areas,
       marks.push_back(std::move(image));
     });
   }
-  canvas.polygons(marks, {fill, std::nullopt});
+  canvas.polygons(marks, paint);
+}
+
+void PicturePen::disks(Canvas& canvas, const std::vector<std::size_t>& style, const std::vector<Paint>& paints) const {
+  const Bodies<2>& b = packing_.bodies;
+  std::vector<std::vector<DiskMark>> batches(paints.size());
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    const Vec2 r = frame().wrap(b.position[i]), reach{{b.radius[i], b.radius[i]}};
+    frame().for_visible_images(r - reach, r + reach, [&](const Vec2& offset) {
+      batches[style[i]].push_back({frame().page(r + offset), b.radius[i] * frame().scale()});
+    });
+  }
+  for (std::size_t k = 0; k < batches.size(); ++k) canvas.disks(batches[k], paints[k]);
+}
+
+void PicturePen::links(Canvas& canvas, const std::vector<DrawnLink>& links, const Color& color) const {
+  std::vector<Bar> bars;
+  for (const DrawnLink& drawn : links) {
+    const Vec2 from = frame().wrap(packing_.bodies.position[idx(drawn.link->i)]);
+    bars.push_back({from, from + ends(packing_, *drawn.link).branch, drawn.width});
+  }
+  this->bars(canvas, bars, color);
 }
 
 RichText number_with_unit(double x, const RichText& unit) {

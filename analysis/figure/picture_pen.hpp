@@ -10,32 +10,47 @@
 
 namespace isostat {
 
+struct Bar {
+  Vec2 from, to;  // [length of the packing] in any image
+  double width;   // [pt]
+};
+
+// What packings of all systems have in common.
+class FramePen {
+ public:
+  explicit FramePen(const PictureFrame& frame) : frame_(frame) {}
+
+  const PictureFrame& frame() const { return frame_; }
+  double diameter() const { return frame_.mean_diameter() * frame_.scale(); }  // [pt] mean
+  Stroke outline(const Color& color) const;  // of grains; faint if they are small, or it would be all that one sees
+
+  void bars(Canvas& canvas, const std::vector<Bar>& bars, const Color& color) const;
+  // Corners in the packing's coordinates, in any image.
+  void areas(Canvas& canvas, const std::vector<const Polygon*>& areas, const Paint& paint) const;
+
+ private:
+  PictureFrame frame_;
+};
+
 struct DrawnLink {
   const Link<2>* link;
   double width;  // [pt]
 };
 
-class PicturePen {
+class PicturePen : public FramePen {
  public:
-  // Keeps a reference to the packing. margin: as PictureFrame.
-  PicturePen(const Packing<2>& packing, double margin);
+  // Keeps a reference to the packing.
+  PicturePen(const Packing<2>& packing, const PictureFrame& frame);
 
   const Packing<2>& packing() const { return packing_; }
-  PictureFrame& frame() { return frame_; }
-  const PictureFrame& frame() const { return frame_; }
-  double diameter() const { return frame_.mean_diameter() * frame_.scale(); }  // [pt] mean
-  double largest_diameter() const { return largest_diameter_; }                // [length] a
-  Stroke outline(const Color& color) const;  // of disks; faint if they are small, or it would be all that one sees
+  double largest_diameter() const { return largest_diameter_; }  // [length] a
 
   // style[i] is the index of body i's paint. One batch a paint, in their order.
   void disks(Canvas& canvas, const std::vector<std::size_t>& style, const std::vector<Paint>& paints) const;
   void links(Canvas& canvas, const std::vector<DrawnLink>& links, const Color& color) const;
-  // Corners in the packing's coordinates.
-  void areas(Canvas& canvas, const std::vector<const Polygon*>& areas, const Color& fill) const;
 
  private:
   const Packing<2>& packing_;
-  PictureFrame frame_;
   double largest_diameter_ = 0;
 };
 

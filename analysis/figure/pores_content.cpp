@@ -12,8 +12,8 @@ constexpr int kLevels = 24;  // colours between the smallest and the largest por
 class PoresContent final : public PictureContent {
  public:
   explicit PoresContent(PoreMapOptions options) : options_(std::move(options)) {
-    for (const PorePatch& p : options_.pores)
-      if (p.radius > 0) low_ = low_ > 0 ? std::min(low_, p.radius) : p.radius, high_ = std::max(high_, p.radius);
+    const auto range = options_.range ? *options_.range : radius_range(options_.pores);
+    low_ = range[0], high_ = range[1];
     std::stable_sort(options_.pores.begin(), options_.pores.end(),
                      [](const PorePatch& a, const PorePatch& b) { return a.area > b.area; });
   }
@@ -25,13 +25,13 @@ class PoresContent final : public PictureContent {
     int level = -1;
     for (const PorePatch& p : options_.pores) {
       if (const int own = level_of(p.radius); own != level) {
-        if (!batch.empty()) pen.areas(canvas, batch, color(level));
+        if (!batch.empty()) pen.areas(canvas, batch, {color(level), std::nullopt});
         batch.clear();
         level = own;
       }
       batch.push_back(&p.wall);
     }
-    if (!batch.empty()) pen.areas(canvas, batch, color(level));
+    if (!batch.empty()) pen.areas(canvas, batch, {color(level), std::nullopt});
     canvas.end_group();
     canvas.begin_group("disks");
     pen.disks(canvas, std::vector<std::size_t>(pen.packing().bodies.size(), 0),
@@ -63,6 +63,13 @@ class PoresContent final : public PictureContent {
 };
 
 }  // namespace
+
+std::array<double, 2> radius_range(const std::vector<PorePatch>& pores) {
+  double low = 0, high = 0;
+  for (const PorePatch& p : pores)
+    if (p.radius > 0) low = low > 0 ? std::min(low, p.radius) : p.radius, high = std::max(high, p.radius);
+  return {low, high};
+}
 
 std::unique_ptr<PictureContent> pores_content(PoreMapOptions options) {
   return std::make_unique<PoresContent>(std::move(options));

@@ -1,11 +1,9 @@
-// Our own SVG rather than Cairo's: disks stay circles, text stays text, and marks of one style share their attributes,
-// a third of the size for a large packing.
+#include "analysis/figure/svg_canvas.hpp"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-
-#include "analysis/figure/canvas.hpp"
 
 namespace isostat {
 namespace {
@@ -65,116 +63,109 @@ std::string paint_attributes(const Paint& paint) {
          (paint.outline ? stroke_attributes(*paint.outline) : std::string());
 }
 
-class SvgCanvas final : public Canvas {
- public:
-  explicit SvgCanvas(const Vec2& size) {
-    out_ = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" +
-           number(size[0]) + "pt\" height=\"" + number(size[1]) + "pt\" viewBox=\"0 0 " + number(size[0]) + ' ' +
-           number(size[1]) + "\" font-family=\"" + kFontStack + "\" stroke-linejoin=\"round\">\n";
-    rectangle({0, 0, size[0], size[1]}, {kWhite, std::nullopt});
-  }
-
-  void begin_group(std::string_view name) override { out_ += "<g id=\"" + escaped(name) + "\">\n"; }
-  void end_group() override { out_ += "</g>\n"; }
-
-  void clip(const Rect& r) override {
-    const std::string id = "clip" + std::to_string(++clips_);
-    out_ += "<clipPath id=\"" + id + "\"><rect" + box(r) + "/></clipPath>\n<g clip-path=\"url(#" + id + ")\">\n";
-  }
-  void unclip() override { out_ += "</g>\n"; }
-
-  void disks(std::span<const DiskMark> marks, const Paint& paint) override {
-    if (marks.empty()) return;
-    out_ += "<g" + paint_attributes(paint) + ">\n";
-    for (const DiskMark& d : marks)
-      out_ += "<circle cx=\"" + number(d.center[0]) + "\" cy=\"" + number(d.center[1]) + "\" r=\"" +
-              number(d.radius, 3) + "\"/>\n";
-    out_ += "</g>\n";
-  }
-
-  // One path for a run of equal widths; each link is one sub-path "M x,y l dx,dy".
-  void segments(std::span<const SegmentMark> marks, const Color& color) override {
-    if (marks.empty()) return;
-    out_ += "<g fill=\"none\" stroke=\"" + hex(color) + "\" stroke-linecap=\"round\">\n";
-    std::string width;
-    std::size_t start = out_.size();
-    for (const SegmentMark& s : marks) {
-      if (std::string w = number(s.width, 2 + (s.width < 1)); w != width || out_.size() - start > kLongestPath) {
-        if (!width.empty()) out_ += "\"/>\n";
-        width = std::move(w);
-        start = out_.size();
-        out_ += "<path stroke-width=\"" + width + "\" d=\"";
-      }
-      const Vec2 d = s.to - s.from;
-      out_ += 'M' + number(s.from[0]) + ',' + number(s.from[1]) + 'l' + number(d[0]) + ',' + number(d[1]);
-    }
-    out_ += "\"/>\n</g>\n";
-  }
-
-  void polyline(std::span<const Vec2> points, const Stroke& stroke) override {
-    if (points.empty()) return;
-    out_ += "<polyline fill=\"none\"" + stroke_attributes(stroke) + " points=\"";
-    for (const Vec2& p : points) out_ += number(p[0]) + ',' + number(p[1]) + ' ';
-    out_.back() = '"';
-    out_ += "/>\n";
-  }
-
-  void polygons(std::span<const Polygon> marks, const Paint& paint) override {
-    if (marks.empty()) return;
-    const std::string open = "<path" + paint_attributes(paint) + " d=\"";
-    std::size_t start = out_.size();
-    out_ += open;
-    for (const Polygon& polygon : marks) {
-      if (out_.size() - start > kLongestPath) {
-        out_ += "\"/>\n";
-        start = out_.size();
-        out_ += open;
-      }
-      for (std::size_t i = 0; i < polygon.size(); ++i)
-        out_ += (i == 0 ? 'M' : i == 1 ? 'L' : ' ') + number(polygon[i][0]) + ',' + number(polygon[i][1]);
-      out_ += 'Z';
-    }
-    out_ += "\"/>\n";
-  }
-
-  void rectangle(const Rect& r, const Paint& paint) override {
-    out_ += "<rect" + box(r) + paint_attributes(paint) + "/>\n";
-  }
-
-  // Chunks of runs that share a script level; a tspan's dy is relative, so each one undoes the last.
-  void text(const Vec2& at, const RichText& text, const TextStyle& style) override {
-    const char* anchor = style.anchor == Anchor::start ? "start" : style.anchor == Anchor::middle ? "middle" : "end";
-    const std::string x = number(at[0]), y = number(at[1]);
-    out_ += "<text x=\"" + x + "\" y=\"" + y + "\" font-size=\"" + number(style.size) + "\" text-anchor=\"" + anchor +
-            "\" fill=\"" + hex(style.color) + '"';
-    if (style.upward) out_ += " transform=\"rotate(-90 " + x + ' ' + y + ")\"";
-    out_ += " xml:space=\"preserve\">";
-    double level = 0;
-    for (const TextRun& run : text) {
-      const double target = style.size * (run.script > 0 ? -kScriptRaise : run.script < 0 ? kScriptDrop : 0);
-      std::string attributes;
-      if (target != level) attributes += " dy=\"" + number(target - level) + '"';
-      if (run.script != 0) attributes += " font-size=\"" + number(style.size * kScriptSize) + '"';
-      if (run.italic) attributes += " font-style=\"italic\"";
-      level = target;
-      out_ += attributes.empty() ? escaped(run.text) : "<tspan" + attributes + '>' + escaped(run.text) + "</tspan>";
-    }
-    out_ += "</text>\n";
-  }
-
-  std::string finish() override { return std::move(out_) + "</svg>\n"; }
-
- private:
-  static std::string box(const Rect& r) {
-    return " x=\"" + number(r.x) + "\" y=\"" + number(r.y) + "\" width=\"" + number(r.width) + "\" height=\"" +
-           number(r.height) + '"';
-  }
-
-  std::string out_;
-  int clips_ = 0;
-};
-
 }  // namespace
+
+std::string SvgCanvas::box(const Rect& r) {
+  return " x=\"" + number(r.x) + "\" y=\"" + number(r.y) + "\" width=\"" + number(r.width) + "\" height=\"" +
+         number(r.height) + '"';
+}
+
+std::string SvgCanvas::place(const Vec2& p) const { return number(p[0], decimals_) + ',' + number(p[1], decimals_); }
+
+SvgCanvas::SvgCanvas(const Vec2& size, int decimals) : decimals_(decimals) {
+  out_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number(size[0]) + "pt\" height=\"" + number(size[1]) +
+         "pt\" viewBox=\"0 0 " + number(size[0]) + ' ' + number(size[1]) + "\" font-family=\"" + kFontStack +
+         "\" stroke-linejoin=\"round\">\n";
+  rectangle({0, 0, size[0], size[1]}, {kWhite, std::nullopt});
+}
+
+void SvgCanvas::begin_group(std::string_view name) {
+  const int times = ++groups_[std::string(name)];
+  out_ += "<g id=\"" + escaped(name) + (times > 1 ? '-' + std::to_string(times) : "") + "\">\n";
+}
+
+void SvgCanvas::clip(const Rect& r) {
+  const std::string id = "clip" + std::to_string(++clips_);
+  out_ += "<clipPath id=\"" + id + "\"><rect" + box(r) + "/></clipPath>\n<g clip-path=\"url(#" + id + ")\">\n";
+}
+
+void SvgCanvas::disks(std::span<const DiskMark> marks, const Paint& paint) {
+  if (marks.empty()) return;
+  out_ += "<g" + paint_attributes(paint) + ">\n";
+  for (const DiskMark& d : marks)
+    out_ += "<circle cx=\"" + number(d.center[0], decimals_) + "\" cy=\"" + number(d.center[1], decimals_) + "\" r=\"" +
+            number(d.radius, decimals_ + 1) + "\"/>\n";
+  out_ += "</g>\n";
+}
+
+// One path for a run of equal widths; each link is one sub-path "M x,y l dx,dy".
+void SvgCanvas::segments(std::span<const SegmentMark> marks, const Color& color) {
+  if (marks.empty()) return;
+  out_ += "<g fill=\"none\" stroke=\"" + hex(color) + "\" stroke-linecap=\"round\">\n";
+  std::string width;
+  std::size_t start = out_.size();
+  for (const SegmentMark& s : marks) {
+    if (std::string w = number(s.width, 2 + (s.width < 1)); w != width || out_.size() - start > kLongestPath) {
+      if (!width.empty()) out_ += "\"/>\n";
+      width = std::move(w);
+      start = out_.size();
+      out_ += "<path stroke-width=\"" + width + "\" d=\"";
+    }
+    const Vec2 d = s.to - s.from;
+    out_ += 'M' + place(s.from) + 'l' + place(d);
+  }
+  out_ += "\"/>\n</g>\n";
+}
+
+void SvgCanvas::polyline(std::span<const Vec2> points, const Stroke& stroke) {
+  if (points.empty()) return;
+  out_ += "<polyline fill=\"none\"" + stroke_attributes(stroke) + " points=\"";
+  for (const Vec2& p : points) out_ += place(p) + ' ';
+  out_.back() = '"';
+  out_ += "/>\n";
+}
+
+void SvgCanvas::polygons(std::span<const Polygon> marks, const Paint& paint) {
+  if (marks.empty()) return;
+  const std::string open = "<path" + paint_attributes(paint) + " d=\"";
+  std::size_t start = out_.size();
+  out_ += open;
+  for (const Polygon& polygon : marks) {
+    if (out_.size() - start > kLongestPath) {
+      out_ += "\"/>\n";
+      start = out_.size();
+      out_ += open;
+    }
+    for (std::size_t i = 0; i < polygon.size(); ++i) out_ += (i == 0 ? 'M' : i == 1 ? 'L' : ' ') + place(polygon[i]);
+    out_ += 'Z';
+  }
+  out_ += "\"/>\n";
+}
+
+void SvgCanvas::rectangle(const Rect& r, const Paint& paint) {
+  out_ += "<rect" + box(r) + paint_attributes(paint) + "/>\n";
+}
+
+// Chunks of runs that share a script level; a tspan's dy is relative, so each one undoes the last.
+void SvgCanvas::text(const Vec2& at, const RichText& text, const TextStyle& style) {
+  const char* anchor = style.anchor == Anchor::start ? "start" : style.anchor == Anchor::middle ? "middle" : "end";
+  const std::string x = number(at[0]), y = number(at[1]);
+  out_ += "<text x=\"" + x + "\" y=\"" + y + "\" font-size=\"" + number(style.size) + "\" text-anchor=\"" + anchor +
+          "\" fill=\"" + hex(style.color) + '"';
+  if (style.upward) out_ += " transform=\"rotate(-90 " + x + ' ' + y + ")\"";
+  out_ += " xml:space=\"preserve\">";
+  double level = 0;
+  for (const TextRun& run : text) {
+    const double target = style.size * (run.script > 0 ? -kScriptRaise : run.script < 0 ? kScriptDrop : 0);
+    std::string attributes;
+    if (target != level) attributes += " dy=\"" + number(target - level) + '"';
+    if (run.script != 0) attributes += " font-size=\"" + number(style.size * kScriptSize) + '"';
+    if (run.italic) attributes += " font-style=\"italic\"";
+    level = target;
+    out_ += attributes.empty() ? escaped(run.text) : "<tspan" + attributes + '>' + escaped(run.text) + "</tspan>";
+  }
+  out_ += "</text>\n";
+}
 
 std::unique_ptr<Canvas> make_svg_canvas(const Vec2& size) { return std::make_unique<SvgCanvas>(size); }
 

@@ -1,8 +1,9 @@
 #include "analysis/rigidity/body_network.hpp"
 
-#include "geometry/base/index.hpp"
-
 #include <algorithm>
+
+#include "analysis/rigidity/area_rows.hpp"
+#include "geometry/base/index.hpp"
 
 namespace isostat {
 
@@ -13,7 +14,8 @@ struct OuterLinks {
   std::vector<std::int32_t> link;
   std::size_t rows = 0, blocks = 0;  // at most
 };
-OuterLinks outer_links(const Packing<2>& packing, NetworkLaw law, bool cell_free, const RigidBodies& bodies) {
+OuterLinks outer_links(const LinkNetwork& network, NetworkLaw law, bool cell_free, const RigidBodies& bodies) {
+  const Packing<2>& packing = network.packing;
   OuterLinks outer;
   for (std::size_t l = 0; l < packing.links.size(); ++l) {
     const Link<2>& link = packing.links[l];
@@ -30,15 +32,54 @@ F cross(const FieldVec<F>& a, const FieldVec<F>& b) {
   return a[0] * b[1] - a[1] * b[0];
 }
 
+// The row of an overlap: the image by s of triangle k, which stands in image a_k in the frame of its body, moves with
+// the frame at x_k and by -e (s - a_k) L. Left out if all of it lies inside one body.
+template <class F>
+void area_row(Rows<F>& rows, std::size_t link, RowKind kind, const LinkNetwork& network, bool cell_free,
+              const RigidBodies& bodies, const FieldGeometry<F>& geometry) {
+  const auto measure = [&](const AreaPair& pair) {
+    const auto b = geometry.placed_corners(idx(pair.j), pair.shift);
+    return pair_area<F>(pair.boundary, geometry.corner[idx(pair.i)], b, geometry.position[idx(pair.i)],
+                        geometry.placed(idx(pair.j), pair.shift));
+  };
+  const auto loads =
+      area_loads<F>(network.area(link), kind == RowKind::tangential, measure,
+                    [&](std::int32_t body, const ImageShift<2>& s) { return geometry.placed(idx(body), s); });
+  std::vector<RowBlock<F>> blocks;
+  std::array<F, 2> strain{};
+  ImageShift<2> first{};
+  bool several_bodies = false, several_images = false;
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    const auto& [triangle, shift, at] = loads[k];
+    const std::int32_t body = bodies.body_of[idx(triangle)];
+    const ImageShift<2>& own = bodies.placement[idx(triangle)];
+    const ImageShift<2> image{shift[0] - own[0], shift[1] - own[1]};
+    if (k == 0) first = image;
+    several_bodies = several_bodies || body != bodies.body_of[idx(loads[0].body)];
+    several_images = several_images || image != first;
+    const FieldVec<F> x = geometry.placed(idx(triangle), own), back = geometry.offset(image), force{at[0], at[1]};
+    for (std::size_t d = 0; d < 2; ++d) strain[d] = strain[d] - back[d] * force[d];
+    if (body == RigidBodies::held) continue;
+    auto block = std::find_if(blocks.begin(), blocks.end(), [&](const auto& b) { return b.body == body; });
+    if (block == blocks.end()) block = blocks.insert(blocks.end(), {body, {}});
+    block->at = {block->at[0] + at[0], block->at[1] + at[1], block->at[2] + at[2] + cross(x, force)};
+  }
+  if (!several_bodies && !several_images) return;
+  rows.begin_row(static_cast<std::int32_t>(link), kind);
+  rows.blocks.insert(rows.blocks.end(), blocks.begin(), blocks.end());
+  if (cell_free && several_images) rows.blocks.push_back({bodies.count, {strain[0], strain[1], F{}}});
+}
+
 }  // namespace
 
 template <class F>
-Rows<F> body_rows(const Packing<2>& packing, NetworkLaw law, bool cell_free, const RigidBodies& bodies,
+Rows<F> body_rows(const LinkNetwork& network, NetworkLaw law, bool cell_free, const RigidBodies& bodies,
                   const FieldGeometry<F>& geometry) {
+  const Packing<2>& packing = network.packing;
   Rows<F> rows;
-  const OuterLinks outer = outer_links(packing, law, cell_free, bodies);
+  const OuterLinks outer = outer_links(network, law, cell_free, bodies);
   rows.rows.reserve(outer.rows), rows.blocks.reserve(outer.blocks);
-  const bool spins = dof_layout(packing, law, cell_free).per_body == 3;
+  const bool spins = dof_layout(network, law, cell_free).per_body == 3;
   for (const std::int32_t l : outer.link) {
     const Link<2>& link = packing.links[idx(l)];
     const auto i = idx(link.i), j = idx(link.j);
@@ -62,12 +103,17 @@ Rows<F> body_rows(const Packing<2>& packing, NetworkLaw law, bool cell_free, con
         for (std::size_t d = 0; d < 3; ++d) on_i.at[d] = on_i.at[d] + on_j.at[d];
         rows.blocks.push_back(on_i);
       } else {
-        rows.blocks.push_back(on_i), rows.blocks.push_back(on_j);
+        for (const auto& block : {on_i, on_j})
+          if (block.body != RigidBodies::held) rows.blocks.push_back(block);
       }
       if (cell_free && through_image && kind != RowKind::rolling)  // the image moves with V - e back
         rows.blocks.push_back({bodies.count, {-(back[0] * force[0]), -(back[1] * force[1]), F{}}});
     }
   }
+  for (std::size_t a = 0; a < network.areas.size(); ++a)
+    for (const RowKind kind : kRowKinds)
+      if (rows_of_area(law)[kind])
+        area_row(rows, packing.links.size() + a, kind, network, cell_free, bodies, geometry);
   return rows;
 }
 
@@ -147,11 +193,11 @@ PrunedNetwork prune(const Rows<F>& rows, std::int32_t body_count, int dofs) {
   return result;
 }
 
-template Rows<FirstField> body_rows(const Packing<2>&, NetworkLaw, bool, const RigidBodies&,
+template Rows<FirstField> body_rows(const LinkNetwork&, NetworkLaw, bool, const RigidBodies&,
                                     const FieldGeometry<FirstField>&);
-template Rows<SecondField> body_rows(const Packing<2>&, NetworkLaw, bool, const RigidBodies&,
+template Rows<SecondField> body_rows(const LinkNetwork&, NetworkLaw, bool, const RigidBodies&,
                                      const FieldGeometry<SecondField>&);
-template Rows<WideField> body_rows(const Packing<2>&, NetworkLaw, bool, const RigidBodies&,
+template Rows<WideField> body_rows(const LinkNetwork&, NetworkLaw, bool, const RigidBodies&,
                                    const FieldGeometry<WideField>&);
 template PrunedNetwork prune(const Rows<FirstField>&, std::int32_t, int);
 template PrunedNetwork prune(const Rows<WideField>&, std::int32_t, int);

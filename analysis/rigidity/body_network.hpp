@@ -15,10 +15,11 @@
 
 namespace isostat {
 
-// Rows of one packing between its rigid bodies, in the order of G; rows inside a body are left out. A body and its own
+// Rows of one packing between its rigid bodies, in the order of G; rows inside a body, and blocks of held ones, are left
+// out. A body and its own
 // image make one block; a row through an image has one of the strain (body number bodies.count) if the cell is free.
 template <class F>
-Rows<F> body_rows(const Packing<2>& packing, NetworkLaw law, bool cell_free, const RigidBodies& bodies,
+Rows<F> body_rows(const LinkNetwork& network, NetworkLaw law, bool cell_free, const RigidBodies& bodies,
                   const FieldGeometry<F>& geometry);
 
 // Bodies whose rows, at the time of removal, are independent on the columns of that body alone: they and their rows go,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "analysis/rigidity/exact_rank.hpp"
 #include "analysis/rigidity/part_of_packing.hpp"
@@ -85,24 +86,37 @@ Motion random_motion(const ReducedProblem<F>& problem) {
   return motion;
 }
 
-// Links whose two ends move as one rigid body (with friction), labelled by a representative grain; -1: hinges.
-std::vector<std::int32_t> label_by_grains(const Packing<2>& packing, const ReducedProblem<F>& problem,
+// Links whose bodies move as one rigid body (with friction; an overlap with all its triangles), labelled by a
+// representative body; -1: hinges.
+std::vector<std::int32_t> label_by_grains(const LinkNetwork& network, const ReducedProblem<F>& problem,
                                           const Motion& motion, const FieldGeometry<F>& geometry) {
-  UnionFind sets(packing.bodies.size());
-  std::vector<char> together(packing.links.size(), 0);
-  for (std::size_t l = 0; l < packing.links.size(); ++l) {
-    const Link<2>& link = packing.links[l];
-    const auto &a = motion[idx(problem.bodies.body_of[idx(link.i)])],
-               &b = motion[idx(problem.bodies.body_of[idx(link.j)])];
-    const FieldVec<F> o = geometry.offset(problem.bodies.image(link));
+  UnionFind sets(network.packing.bodies.size());
+  std::vector<char> together(network.links(), 1);
+  std::vector<std::int32_t> first(network.links(), 0);
+  const auto of = [&](std::int32_t body) {  // a held body stands still
+    const std::int32_t rigid = problem.bodies.body_of[idx(body)];
+    return rigid == RigidBodies::held ? std::array<F, 3>{} : motion[idx(rigid)];
+  };
+  const auto alike = [&](std::int32_t i, std::int32_t j, const ImageShift<2>& shift) {
+    const auto a = of(i), b = of(j);
+    const FieldVec<F> o = geometry.offset(problem.bodies.image(i, j, shift));
     // The image of b: V_b - W_b z x o - e o.
     const F vx = b[0] + b[2] * o[1] - motion.back()[0] * o[0], vy = b[1] - b[2] * o[0] - motion.back()[1] * o[1];
-    together[l] = a[2] == b[2] && a[0] == vx && a[1] == vy;
-    if (together[l]) sets.join(idx(link.j), idx(link.i));
+    return a[2] == b[2] && a[0] == vx && a[1] == vy;
+  };
+  for (std::size_t l = 0; l < together.size(); ++l) {
+    first[l] = network.is_area(l) ? network.area(l).pairs[0].i : network.packing.links[l].i;
+    network.each_bond(l, [&](std::int32_t i, std::int32_t j, const ImageShift<2>& shift) {
+      together[l] = together[l] && alike(i, j, shift) && alike(first[l], i, {});
+    });
+    if (together[l])
+      network.each_bond(l, [&](std::int32_t i, std::int32_t j, const ImageShift<2>&) {
+        sets.join(idx(j), idx(i)), sets.join(idx(i), idx(first[l]));
+      });
   }
-  std::vector<std::int32_t> label(packing.links.size(), -1);
+  std::vector<std::int32_t> label(network.links(), -1);
   for (std::size_t l = 0; l < label.size(); ++l)
-    if (together[l]) label[l] = static_cast<std::int32_t>(sets.find(idx(packing.links[l].i)));
+    if (together[l]) label[l] = static_cast<std::int32_t>(sets.find(idx(first[l])));
   return label;
 }
 
@@ -140,33 +154,43 @@ std::vector<std::int32_t> label_by_links(const Packing<2>& packing, const Reduce
 }
 
 // The cluster as a packing of its own; also finds which axes its loops wind around.
-RigidCluster describe(const Packing<2>& packing, NetworkLaw law, bool cell_free,
+RigidCluster describe(const LinkNetwork& network, NetworkLaw law, bool cell_free,
                       const std::vector<std::int32_t>& links) {
   RigidCluster c;
-  const Packing<2> part = part_of(packing, {}, links);
-  c.grains = static_cast<std::int64_t>(part.bodies.size());
+  const OwnedNetwork owned = part_of(network, {}, links);
+  const LinkNetwork part = owned.view();
+  const std::size_t bodies = owned.packing.bodies.size();
+  c.grains = static_cast<std::int64_t>(
+      part.of_triangles() ? std::set<std::int32_t>(owned.grain.begin(), owned.grain.end()).size() : bodies);
   c.links = static_cast<std::int64_t>(links.size());
+  if (c.grains < 2) return c;
   c.rows = row_count(part, law);
 
   // Potentials of images along a spanning tree; a link that disagrees closes a loop round the cell.
-  if (packing.cell) {
-    std::vector<std::vector<std::int32_t>> incident(part.bodies.size());
-    for (std::size_t l = 0; l < part.links.size(); ++l) {
-      incident[idx(part.links[l].i)].push_back(static_cast<std::int32_t>(l));
-      incident[idx(part.links[l].j)].push_back(static_cast<std::int32_t>(l));
-    }
-    std::vector<ImageShift<2>> image(part.bodies.size());
-    std::vector<char> seen(part.bodies.size(), 0);
+  if (part.packing.cell) {
+    struct Bond {
+      std::int32_t i, j;
+      ImageShift<2> shift;
+    };
+    std::vector<Bond> bonds;
+    std::vector<std::vector<std::size_t>> incident(bodies);
+    for (std::size_t l = 0; l < part.links(); ++l)
+      part.each_bond(l, [&](std::int32_t i, std::int32_t j, const ImageShift<2>& shift) {
+        incident[idx(i)].push_back(bonds.size()), incident[idx(j)].push_back(bonds.size());
+        bonds.push_back({i, j, shift});
+      });
+    std::vector<ImageShift<2>> image(bodies);
+    std::vector<char> seen(bodies, 0);
     std::vector<std::int32_t> stack = {0};
     seen[0] = 1;
     while (!stack.empty()) {
       const std::int32_t g = stack.back();
       stack.pop_back();
-      for (std::int32_t l : incident[idx(g)]) {
-        const Link<2>& link = part.links[idx(l)];
-        const int sign = link.i == g ? 1 : -1;
-        const std::int32_t other = link.i == g ? link.j : link.i;
-        const ImageShift<2> at = {image[idx(g)][0] + sign * link.shift[0], image[idx(g)][1] + sign * link.shift[1]};
+      for (const std::size_t l : incident[idx(g)]) {
+        const Bond& bond = bonds[l];
+        const int sign = bond.i == g ? 1 : -1;
+        const std::int32_t other = bond.i == g ? bond.j : bond.i;
+        const ImageShift<2> at = {image[idx(g)][0] + sign * bond.shift[0], image[idx(g)][1] + sign * bond.shift[1]};
         if (!seen[idx(other)]) {
           seen[idx(other)] = 1, image[idx(other)] = at;
           stack.push_back(other);
@@ -177,21 +201,22 @@ RigidCluster describe(const Packing<2>& packing, NetworkLaw law, bool cell_free,
     }
   }
   // Few rows cannot depend on each other in a cluster without loops; otherwise ask the exact rank.
-  const bool tree = c.links < c.grains;
+  const bool tree = !part.of_triangles() && c.links < c.grains;
   c.hyperstatic = tree ? 0 : exact_rank(part, law, cell_free).hyperstatic;
   return c;
 }
 
 }  // namespace
 
-RigidClusters rigid_clusters(const Packing<2>& packing, NetworkLaw law, bool cell_free) {
+RigidClusters rigid_clusters(const LinkNetwork& network, NetworkLaw law, bool cell_free) {
+  const Packing<2>& packing = network.packing;
   if (cell_free && !packing.cell) throw InputError("command line", 0, "--cell", "free", "the input has no cell");
-  const ReducedProblem<F> problem = reduce_problem<F>(packing, law, cell_free);
+  const ReducedProblem<F> problem = reduce_problem<F>(network, law, cell_free);
   const Motion motion = random_motion(problem);
-  const FieldGeometry<F> geometry = exact_geometry<F>(packing);
-  const std::vector<std::int32_t> label = law == NetworkLaw::frictionless
+  const FieldGeometry<F> geometry = exact_geometry<F>(network);
+  const std::vector<std::int32_t> label = law == NetworkLaw::frictionless && !network.of_triangles()
                                               ? label_by_links(packing, problem, motion, geometry)
-                                              : label_by_grains(packing, problem, motion, geometry);
+                                              : label_by_grains(network, problem, motion, geometry);
   std::map<std::int32_t, std::vector<std::int32_t>> links_of;
   for (std::size_t l = 0; l < label.size(); ++l)
     if (label[l] >= 0) links_of[label[l]].push_back(static_cast<std::int32_t>(l));
@@ -202,22 +227,24 @@ RigidClusters rigid_clusters(const Packing<2>& packing, NetworkLaw law, bool cel
   };
   std::vector<Entry> entries;
   for (const auto& [name, links] : links_of) {
-    const RigidCluster c = describe(packing, law, cell_free, links);
+    const RigidCluster c = describe(network, law, cell_free, links);
     if (c.grains >= 2) entries.push_back({c, &links});
   }
   std::stable_sort(entries.begin(), entries.end(),
                    [](const Entry& a, const Entry& b) { return a.cluster.grains > b.cluster.grains; });
 
   RigidClusters result;
-  result.cluster_of_link.assign(packing.links.size(), -1);
+  result.cluster_of_link.assign(network.links(), -1);
   result.cluster_of_grain.assign(packing.bodies.size(), -1);
   for (const Entry& e : entries) {
     const auto index = static_cast<std::int32_t>(result.clusters.size());
     result.clusters.push_back(e.cluster);
     for (std::int32_t l : *e.links) {
       result.cluster_of_link[idx(l)] = index;
-      for (std::int32_t g : {packing.links[idx(l)].i, packing.links[idx(l)].j})
-        if (result.cluster_of_grain[idx(g)] < 0) result.cluster_of_grain[idx(g)] = index;
+      network.each_bond(idx(l), [&](std::int32_t i, std::int32_t j, const ImageShift<2>&) {
+        for (const std::int32_t g : {i, j})
+          if (result.cluster_of_grain[idx(g)] < 0) result.cluster_of_grain[idx(g)] = index;
+      });
     }
   }
   return result;

@@ -2,7 +2,8 @@
 // rigid body in a random vector of null G over a prime field, which (up to a chance of 1e-12) means in all of them.
 //
 // With friction a cluster is a set of grains, and pins between clusters are hinges. Frictionless grains are points: a
-// cluster is a set of links, and a grain may be the hinge of several.
+// cluster is a set of links, and a grain may be the hinge of several. Grains of triangles have an orientation: clusters
+// are sets of triangles, the grains they belong to are counted, and what is one grain alone is no cluster.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -23,11 +24,11 @@ struct RigidCluster {
 
 struct RigidClusters {
   std::vector<RigidCluster> clusters;          // by decreasing number of grains
-  std::vector<std::int32_t> cluster_of_link;   // -1: the link joins different clusters
-  std::vector<std::int32_t> cluster_of_grain;  // the largest cluster that holds it; -1: in none
+  std::vector<std::int32_t> cluster_of_link;   // by link of the network; -1: it joins different clusters
+  std::vector<std::int32_t> cluster_of_grain;  // by body: the largest that holds it; -1: in none
 };
 
 // Throws InputError if cell_free is asked for without a cell.
-RigidClusters rigid_clusters(const Packing<2>& packing, NetworkLaw law, bool cell_free);
+RigidClusters rigid_clusters(const LinkNetwork& network, NetworkLaw law, bool cell_free);
 
 }  // namespace isostat

@@ -6,6 +6,8 @@
 #include "analysis/rigidity/reduced_problem.hpp"
 #include "dem/input_error.hpp"
 #include "dem/solver/clocks.hpp"
+#include "geometry/base/index.hpp"
+#include "geometry/union_find.hpp"
 
 namespace isostat {
 namespace {
@@ -27,13 +29,32 @@ std::int64_t null_dimension(const ReducedProblem<FirstField>& problem, const Row
   }
 }
 
-void count_null_spaces(const Packing<2>& packing, NetworkLaw law, ExactRank& r) {
+// Of triangles: rigid motions of the whole, where no wall hinders them, and of whatever beams hold together (a grain, as
+// a rule) that no overlap touches.
+void count_null_spaces_of_triangles(const LinkNetwork& network, ExactRank& r) {
+  UnionFind joined(network.packing.bodies.size());
+  for (const Link<2>& l : network.packing.links) joined.join(idx(l.i), idx(l.j));
+  std::vector<char> touched(network.packing.bodies.size(), 0);
+  for (std::size_t b = idx(network.free); b < touched.size(); ++b) touched[joined.find(b)] = 1;
+  for (const AreaLink& a : network.areas)
+    for (const AreaPair& pair : a.pairs) touched[joined.find(idx(pair.i))] = touched[joined.find(idx(pair.j))] = 1;
+  std::int64_t pieces = 0, rattlers = 0;
+  for (std::size_t b = 0; b < touched.size(); ++b)
+    if (joined.find(b) == b) ++pieces, rattlers += !touched[b];
+  r.trivial = network.any_held() ? 0 : network.packing.cell ? 2 : 3;
+  r.rattler_modes = rattlers == pieces ? 3 * pieces - r.trivial : 3 * rattlers;
+  r.mechanisms = r.floppy - r.trivial - r.rattler_modes;
+}
+
+void count_null_spaces(const LinkNetwork& network, NetworkLaw law, ExactRank& r) {
+  if (network.of_triangles()) return count_null_spaces_of_triangles(network, r);
+  const Packing<2>& packing = network.packing;
   std::vector<char> linked(packing.bodies.size(), 0);
   for (const Link<2>& link : packing.links)
     linked[static_cast<std::size_t>(link.i)] = linked[static_cast<std::size_t>(link.j)] = 1;
   const auto n = static_cast<std::int64_t>(packing.bodies.size());
   const std::int64_t rattlers = n - std::count(linked.begin(), linked.end(), 1);
-  const std::int64_t per_body = dof_layout(packing, law, false).per_body;
+  const std::int64_t per_body = dof_layout(network, law, false).per_body;
   // Isolated: two translations and a rotation; of one point: the translations.
   r.trivial = packing.cell ? 2 : std::min<std::int64_t>(3, n * per_body);
   r.rattler_modes = rattlers == n ? n * per_body - r.trivial : rattlers * per_body;
@@ -42,13 +63,13 @@ void count_null_spaces(const Packing<2>& packing, NetworkLaw law, ExactRank& r) 
 
 }  // namespace
 
-ExactRank exact_rank(const Packing<2>& packing, NetworkLaw law, bool cell_free) {
-  if (cell_free && !packing.cell) throw InputError("command line", 0, "--cell", "free", "the input has no cell");
+ExactRank exact_rank(const LinkNetwork& network, NetworkLaw law, bool cell_free) {
+  if (cell_free && !network.packing.cell) throw InputError("command line", 0, "--cell", "free", "the input has no cell");
   ExactRank r;
-  r.dofs = dof_layout(packing, law, cell_free).size();
-  r.rows = row_count(packing, law);
+  r.dofs = dof_layout(network, law, cell_free).size();
+  r.rows = row_count(network, law);
 
-  const ReducedProblem<FirstField> problem = reduce_problem<FirstField>(packing, law, cell_free);
+  const ReducedProblem<FirstField> problem = reduce_problem<FirstField>(network, law, cell_free);
   r.bodies = problem.bodies.count;
   for (std::int8_t d : problem.dofs) r.eliminated_columns += d;
   r.timings.contraction = problem.contraction_seconds;
@@ -59,12 +80,12 @@ ExactRank exact_rank(const Packing<2>& packing, NetworkLaw law, bool cell_free) 
   r.floppy = null_dimension(problem, problem.rows);
   r.primes = {FirstField::kPrime};
   r.floppy_generic = null_dimension(
-      problem, body_rows(packing, law, cell_free, problem.bodies, random_geometry<SecondField>(packing, kWeightSeed)));
+      problem, body_rows(network, law, cell_free, problem.bodies, random_geometry<SecondField>(network, kWeightSeed)));
   r.bounds_meet = r.floppy_generic == r.floppy;
   r.certified = r.bounds_meet;
   if (!r.bounds_meet) {
     const std::int64_t second = null_dimension(
-        problem, body_rows(packing, law, cell_free, problem.bodies, exact_geometry<SecondField>(packing)));
+        problem, body_rows(network, law, cell_free, problem.bodies, exact_geometry<SecondField>(network)));
     r.certified = second == r.floppy && r.floppy_generic <= r.floppy;
     if (second == r.floppy)
       r.primes.push_back(SecondField::kPrime);
@@ -75,12 +96,13 @@ ExactRank exact_rank(const Packing<2>& packing, NetworkLaw law, bool cell_free) 
 
   r.rank = r.dofs - r.floppy;
   r.hyperstatic = r.rows - r.rank;
-  count_null_spaces(packing, law, r);
-  r.gear_modes = static_cast<std::int64_t>(gear_components(packing, law).size());
+  count_null_spaces(network, law, r);
+  r.gear_modes = static_cast<std::int64_t>(gear_components(network, law).size());
   return r;
 }
 
-std::vector<std::vector<std::int32_t>> gear_components(const Packing<2>& packing, NetworkLaw law) {
+std::vector<std::vector<std::int32_t>> gear_components(const LinkNetwork& network, NetworkLaw law) {
+  const Packing<2>& packing = network.packing;
   // Union-find with parity: side[i] is the colour of i relative to its root.
   const std::size_t n = packing.bodies.size();
   std::vector<std::int32_t> parent(n);

@@ -43,11 +43,11 @@ struct ExactRank {
 };
 
 // Throws InputError if cell_free is asked for without a cell.
-ExactRank exact_rank(const Packing<2>& packing, NetworkLaw law, bool cell_free);
+ExactRank exact_rank(const LinkNetwork& network, NetworkLaw law, bool cell_free);
 
 // Components of the graph of tangential rows that are bipartite and hold a loop: their disks can turn like gears,
 // R_i w_i = +c on one side and -c on the other, whatever the positions (proportional lever arms). Each is a list of
 // grains. Empty for frictionless networks; a component with a moment row inside is none.
-std::vector<std::vector<std::int32_t>> gear_components(const Packing<2>& packing, NetworkLaw law);
+std::vector<std::vector<std::int32_t>> gear_components(const LinkNetwork& network, NetworkLaw law);
 
 }  // namespace isostat

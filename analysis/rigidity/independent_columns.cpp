@@ -1,8 +1,10 @@
 #include "analysis/rigidity/independent_columns.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "analysis/rigidity/area_rows.hpp"
 #include "analysis/rigidity/reduced_problem.hpp"
 #include "dem/input_error.hpp"
 #include "dem/state/link_ends.hpp"
@@ -22,8 +24,8 @@ struct PrunedRow {
 
 class PrunedRows {
  public:
-  PrunedRows(const Packing<2>& packing, const ReducedProblem<F>& problem, const FieldGeometry<F>& geometry)
-      : packing_(packing), problem_(problem), geometry_(geometry) {}
+  PrunedRows(const LinkNetwork& network, const ReducedProblem<F>& problem, const FieldGeometry<F>& geometry)
+      : network_(network), packing_(network.packing), problem_(problem), geometry_(geometry) {}
 
   PrunedRow about(std::size_t grain, std::int32_t body, std::size_t at) const {
     PrunedRow result;
@@ -34,6 +36,10 @@ class PrunedRows {
     result.exact[2] = result.exact[2] + result.exact[0] * x[1] - result.exact[1] * x[0];
     if (row.kind == RowKind::rolling) {
       result.size = {0, 0, 1 / packing_.bodies.radius[grain]};
+      return result;
+    }
+    if (network_.is_area(idx(row.link))) {
+      result.size = area_size(row, grain, body);
       return result;
     }
     const Link<2>& link = packing_.links[idx(row.link)];
@@ -50,10 +56,24 @@ class PrunedRows {
   }
 
  private:
+  // As a link's: the largest force on a triangle is the unit.
+  std::array<double, 3> area_size(const Rows<F>::Row& row, std::size_t grain, std::int32_t body) const {
+    std::array<double, 3> sum{};
+    double largest = 0;
+    for (const auto& [triangle, shift, at] :
+         area_loads(network_, network_.area(idx(row.link)), row.kind == RowKind::tangential)) {
+      largest = std::max(largest, std::hypot(at[0], at[1]));
+      if (problem_.bodies.body_of[idx(triangle)] != body) continue;
+      const Vec2 arm = placed(idx(triangle)) - placed(grain);
+      sum = {sum[0] + at[0], sum[1] + at[1], sum[2] + at[2] + arm[0] * at[1] - arm[1] * at[0]};
+    }
+    return {sum[0] / largest, sum[1] / largest, sum[2] / largest / packing_.bodies.radius[grain]};
+  }
   Vec2 offset(const ImageShift<2>& s) const { return packing_.cell ? packing_.cell->offset(s) : Vec2{}; }
   Vec2 placed(std::size_t grain) const {
     return packing_.bodies.position[grain] + offset(problem_.bodies.placement[grain]);
   }
+  const LinkNetwork& network_;
   const Packing<2>& packing_;
   const ReducedProblem<F>& problem_;
   const FieldGeometry<F>& geometry_;
@@ -90,18 +110,20 @@ std::array<bool, 3> without_pivot(std::array<PrunedRow, 3> a, std::size_t count,
 // of G is column W plus columns V of the same body, eliminated just before. Likewise peculiar and absolute velocities
 // differ by columns V in the strain columns, which come last. So the same columns depend on earlier ones. Pruned
 // bodies stand first in the order, in the order of their removal, each with its columns sorted by its pivots.
-std::vector<char> dependent_columns(const Packing<2>& packing, NetworkLaw law, bool cell_free) {
+std::vector<char> dependent_columns(const LinkNetwork& network, NetworkLaw law, bool cell_free) {
+  const Packing<2>& packing = network.packing;
   if (cell_free && !packing.cell) throw InputError("command line", 0, "--cell", "free", "the input has no cell");
-  const ReducedProblem<F> problem = reduce_problem<F>(packing, law, cell_free);
-  const DofLayout layout = dof_layout(packing, law, cell_free);
+  const ReducedProblem<F> problem = reduce_problem<F>(network, law, cell_free);
+  const DofLayout layout = dof_layout(network, law, cell_free);
   std::vector<char> dependent(idx(layout.size()), 0);
   std::vector<std::size_t> column_of_body(idx(problem.bodies.count));
-  for (std::size_t i = packing.bodies.size(); i-- > 0;)
+  for (std::size_t i = idx(network.free); i-- > 0;)
+    if (problem.bodies.body_of[i] != RigidBodies::held)
     column_of_body[idx(problem.bodies.body_of[i])] = i * idx(layout.per_body);
 
   const auto per_body = idx(layout.per_body);
-  const FieldGeometry<F> geometry = exact_geometry<F>(packing);
-  const PrunedRows rows_about(packing, problem, geometry);
+  const FieldGeometry<F> geometry = exact_geometry<F>(network);
+  const PrunedRows rows_about(network, problem, geometry);
   for (const PrunedBody& pruned : problem.network.pruned) {
     const std::size_t column = column_of_body[idx(pruned.body)];
     std::array<PrunedRow, 3> mine;

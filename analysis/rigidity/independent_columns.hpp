@@ -9,6 +9,6 @@
 namespace isostat {
 
 // By column of G (analysis/rigidity/link_rows.hpp): 1 where it depends on the columns eliminated before it.
-std::vector<char> dependent_columns(const Packing<2>& packing, NetworkLaw law, bool cell_free);
+std::vector<char> dependent_columns(const LinkNetwork& network, NetworkLaw law, bool cell_free);
 
 }  // namespace isostat

@@ -64,23 +64,29 @@ LinkLoad<F> rational_load(RowKind kind, const std::array<F, 2>& branch, F radius
 
 // Columns of G: body i has columns [i * per_body, (i + 1) * per_body): vx, vy and, with friction or where there are
 // beams, the spin; a free cell adds the two strain rates e_1, e_2 (compression positive) at the end. Velocities are
-// peculiar (Eq. A1).
+// peculiar (Eq. A1). Held bodies come last and have no columns.
 struct DofLayout {
   int per_body = 3;
-  std::int64_t bodies = 0;
+  std::int64_t bodies = 0;  // that are free
   int strains = 0;
   std::int64_t size() const { return per_body * bodies + strains; }
   std::int64_t strain_column(int axis) const { return per_body * bodies + axis; }
 };
 
-inline DofLayout dof_layout(const Packing<2>& packing, NetworkLaw law, bool cell_free) {
-  const bool points = law == NetworkLaw::frictionless && packing.beams.empty();
-  return {points ? 2 : 3, static_cast<std::int64_t>(packing.bodies.size()), cell_free ? 2 : 0};
+inline DofLayout dof_layout(const LinkNetwork& network, NetworkLaw law, bool cell_free) {
+  const bool points = law == NetworkLaw::frictionless && network.packing.beams.empty() && !network.of_triangles();
+  return {points ? 2 : 3, network.free, cell_free ? 2 : 0};
 }
 
-inline std::int64_t row_count(const Packing<2>& packing, NetworkLaw law) {
+// An overlap has a normal row, its area, and with friction a tangential one.
+constexpr LinkRows rows_of_area(NetworkLaw law) { return {{true, law != NetworkLaw::frictionless, false}}; }
+inline LinkRows rows_of(const LinkNetwork& network, std::size_t link, NetworkLaw law) {
+  return network.is_area(link) ? rows_of_area(law) : rows_of(network.packing.links[link].kind, law);
+}
+
+inline std::int64_t row_count(const LinkNetwork& network, NetworkLaw law) {
   std::int64_t m = 0;
-  for (const Link<2>& link : packing.links) m += rows_of(link.kind, law).count();
+  for (std::size_t l = 0; l < network.links(); ++l) m += rows_of(network, l, law).count();
   return m;
 }
 

@@ -1,36 +1,51 @@
 #include "analysis/rigidity/part_of_packing.hpp"
 
-#include "geometry/base/index.hpp"
-
+#include <algorithm>
 #include <unordered_map>
+
+#include "geometry/base/index.hpp"
 
 namespace isostat {
 
-Packing<2> part_of(const Packing<2>& packing, const std::vector<std::int32_t>& grains,
-                   const std::vector<std::int32_t>& links) {
-  Packing<2> part;
-  part.cell = packing.cell;
-  std::unordered_map<std::int32_t, std::int32_t> number;  // no array over all grains: clusters are many and small
-  const auto local = [&](std::int32_t grain) {
-    const auto [at, fresh] = number.try_emplace(grain, static_cast<std::int32_t>(part.bodies.position.size()));
-    if (fresh) {
-      const auto g = idx(grain);
-      part.bodies.id.push_back(packing.bodies.id[g]);
-      part.bodies.position.push_back(packing.bodies.position[g]);
-      part.bodies.radius.push_back(packing.bodies.radius[g]);
-    }
-    return at->second;
+OwnedNetwork part_of(const LinkNetwork& network, const std::vector<std::int32_t>& bodies,
+                     const std::vector<std::int32_t>& links) {
+  const Packing<2>& packing = network.packing;
+  std::unordered_map<std::int32_t, std::int32_t> number;  // no array over all bodies: clusters are many and small
+  std::vector<std::int32_t> members;
+  const auto take = [&](std::int32_t body) {
+    if (number.try_emplace(body, 0).second) members.push_back(body);
   };
-  number.reserve(grains.size());
-  for (std::int32_t g : grains) local(g);
-  for (std::int32_t l : links) {
-    Link<2> link = packing.links[idx(l)];
-    link.i = local(link.i), link.j = local(link.j);
-    if (link.kind == LinkKind::beam) {
-      part.beams.push_back(packing.beams[idx(link.beam)]);
-      link.beam = static_cast<std::int32_t>(part.beams.size()) - 1;
+  number.reserve(bodies.size());
+  for (const std::int32_t b : bodies) take(b);
+  for (const std::int32_t l : links)
+    network.each_bond(idx(l), [&](std::int32_t i, std::int32_t j, const ImageShift<2>&) { take(i), take(j); });
+  std::stable_partition(members.begin(), members.end(), [&](std::int32_t b) { return network.is_free(b); });
+
+  OwnedNetwork part;
+  part.packing.cell = packing.cell;
+  for (const std::int32_t body : members) {
+    const auto b = idx(body);
+    number[body] = static_cast<std::int32_t>(part.packing.bodies.position.size());
+    part.free += network.is_free(body);
+    part.packing.bodies.id.push_back(packing.bodies.id[b]);
+    part.packing.bodies.position.push_back(packing.bodies.position[b]);
+    part.packing.bodies.radius.push_back(packing.bodies.radius[b]);
+    if (network.of_triangles()) part.corners.push_back(network.corners[b]), part.grain.push_back(network.grain[b]);
+  }
+  for (const std::int32_t l : links) {
+    if (network.is_area(idx(l))) {
+      AreaLink area = network.area(idx(l));
+      for (AreaPair& p : area.pairs) p.i = number[p.i], p.j = number[p.j];
+      part.areas.push_back(std::move(area));
+      continue;
     }
-    part.links.push_back(link);
+    Link<2> link = packing.links[idx(l)];
+    link.i = number[link.i], link.j = number[link.j];
+    if (link.kind == LinkKind::beam) {
+      part.packing.beams.push_back(packing.beams[idx(link.beam)]);
+      link.beam = static_cast<std::int32_t>(part.packing.beams.size()) - 1;
+    }
+    part.packing.links.push_back(link);
   }
   return part;
 }

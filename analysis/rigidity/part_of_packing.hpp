@@ -4,13 +4,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "dem/state/packing.hpp"
+#include "analysis/link_network.hpp"
 
 namespace isostat {
 
-// `grains` in this order, then what else the links join, in the order of the links; beams follow their links. Of the
-// bodies only id, position and radius are filled.
-Packing<2> part_of(const Packing<2>& packing, const std::vector<std::int32_t>& grains,
-                   const std::vector<std::int32_t>& links);
+// `bodies` in this order, then what else the links join, in the order of the links; held ones last. links: of
+// LinkNetwork, ascending; beams follow their links. Of the bodies only id, position and radius are filled.
+OwnedNetwork part_of(const LinkNetwork& network, const std::vector<std::int32_t>& bodies,
+                     const std::vector<std::int32_t>& links);
 
 }  // namespace isostat

@@ -6,16 +6,16 @@
 namespace isostat {
 
 template <class F>
-ReducedProblem<F> reduce_problem(const Packing<2>& packing, NetworkLaw law, bool cell_free) {
+ReducedProblem<F> reduce_problem(const LinkNetwork& network, NetworkLaw law, bool cell_free) {
   ReducedProblem<F> p;
-  p.per_body = dof_layout(packing, law, cell_free).per_body;
+  p.per_body = dof_layout(network, law, cell_free).per_body;
 
   double start = wall_seconds();
-  p.bodies = contract_rigid_bodies(packing, law);
+  p.bodies = contract_rigid_bodies(network, law);
   p.contraction_seconds = wall_seconds() - start;
 
   start = wall_seconds();
-  p.rows = body_rows(packing, law, cell_free, p.bodies, exact_geometry<F>(packing));
+  p.rows = body_rows(network, law, cell_free, p.bodies, exact_geometry<F>(network));
   p.network = prune(p.rows, p.bodies.count, p.per_body);
   p.assembly_seconds = wall_seconds() - start;
 
@@ -53,7 +53,7 @@ ReducedProblem<F> reduce_problem(const Packing<2>& packing, NetworkLaw law, bool
   return p;
 }
 
-template ReducedProblem<FirstField> reduce_problem(const Packing<2>&, NetworkLaw, bool);
-template ReducedProblem<WideField> reduce_problem(const Packing<2>&, NetworkLaw, bool);
+template ReducedProblem<FirstField> reduce_problem(const LinkNetwork&, NetworkLaw, bool);
+template ReducedProblem<WideField> reduce_problem(const LinkNetwork&, NetworkLaw, bool);
 
 }  // namespace isostat

@@ -29,6 +29,6 @@ struct ReducedProblem {
 };
 
 template <class F>
-ReducedProblem<F> reduce_problem(const Packing<2>& packing, NetworkLaw law, bool cell_free);
+ReducedProblem<F> reduce_problem(const LinkNetwork& network, NetworkLaw law, bool cell_free);
 
 }  // namespace isostat

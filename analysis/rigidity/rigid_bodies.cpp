@@ -81,11 +81,13 @@ class PinTable {
 // Pin-end e = 2 * pin + side: side 0 stands on the link's body i, side 1 on j; e ^ 1 is the other end.
 class Contraction {
  public:
-  Contraction(const Packing<2>& packing, NetworkLaw law)
-      : packing_(packing),
-        geometry_(exact_geometry<F>(packing)),
-        sets_(packing.bodies.size()),
-        table_(packing.links.size()) {
+  Contraction(const LinkNetwork& network, NetworkLaw law)
+      : packing_(network.packing),
+        free_(network.free),
+        geometry_(exact_geometry<F>(network)),
+        sets_(network.packing.bodies.size()),
+        table_(network.packing.links.size()) {
+    const Packing<2>& packing = network.packing;
     const std::size_t n = packing.bodies.size();
     head_.assign(n, -1), tail_.assign(n, -1), degree_.assign(n, 0);
     for (std::size_t l = 0; l < packing.links.size(); ++l) {
@@ -109,10 +111,12 @@ class Contraction {
     RigidBodies bodies;
     const std::size_t n = packing_.bodies.size();
     bodies.body_of.resize(n), bodies.placement.resize(n);
-    std::vector<std::int32_t> number(n, -1);
+    constexpr std::int32_t fresh = -2;
+    std::vector<std::int32_t> number(n, fresh);
+    for (std::size_t i = idx(free_); i < n; ++i) number[u(sets_.find(static_cast<int>(i)).root)] = RigidBodies::held;
     for (std::size_t i = 0; i < n; ++i) {
       const auto [root, image] = sets_.find(static_cast<int>(i));
-      if (number[u(root)] < 0) number[u(root)] = bodies.count++;
+      if (number[u(root)] == fresh) number[u(root)] = bodies.count++;
       bodies.body_of[i] = number[u(root)];
       bodies.placement[i] = image;
     }
@@ -263,6 +267,7 @@ class Contraction {
     Shift image;
   };
   const Packing<2>& packing_;
+  std::int32_t free_;
   FieldGeometry<F> geometry_;
   PlacedSets<2> sets_;
   PinTable table_;
@@ -275,8 +280,9 @@ class Contraction {
 
 }  // namespace
 
-RigidBodies contract_rigid_bodies(const Packing<2>& packing, NetworkLaw law) {
-  if (law == NetworkLaw::frictionless && packing.beams.empty()) {
+RigidBodies contract_rigid_bodies(const LinkNetwork& network, NetworkLaw law) {
+  const Packing<2>& packing = network.packing;
+  if (law == NetworkLaw::frictionless && packing.beams.empty() && !network.any_held()) {
     RigidBodies bodies;
     bodies.count = static_cast<std::int32_t>(packing.bodies.size());
     bodies.body_of.resize(packing.bodies.size());
@@ -284,7 +290,7 @@ RigidBodies contract_rigid_bodies(const Packing<2>& packing, NetworkLaw law) {
     bodies.placement.assign(packing.bodies.size(), kHome);
     return bodies;
   }
-  return Contraction(packing, law).result();
+  return Contraction(network, law).result();
 }
 
 }  // namespace isostat

@@ -8,13 +8,14 @@
 
 namespace isostat {
 
-// Compressed rows. Row order: links in storage order, and within a link N, T, M as far as kept.
+// Compressed rows. Row order: links in storage order, then overlaps, and within a link N, T, M as far as kept. The normal
+// row of an overlap is the rate at which its area shrinks, conjugate to the pressure.
 struct RigidityMatrix {
   DofLayout layout;
   std::vector<std::int64_t> row_start;    // size rows() + 1
   std::vector<std::int64_t> column;       // ascending within a row; equal columns are already summed
   std::vector<double> value;              // [-] normal, tangential in velocities; [a] at spins; strains [a]
-  std::vector<std::int32_t> link_of_row;  // index into Packing::links
+  std::vector<std::int32_t> link_of_row;  // LinkNetwork::links()
   std::vector<RowKind> kind;
 
   std::int64_t rows() const { return static_cast<std::int64_t>(row_start.size()) - 1; }
@@ -27,12 +28,12 @@ struct RigidityMatrix {
 };
 
 // Throws InputError if cell_free is asked for without a cell.
-RigidityMatrix rigidity_matrix(const Packing<2>& packing, NetworkLaw law, bool cell_free);
+RigidityMatrix rigidity_matrix(const LinkNetwork& network, NetworkLaw law, bool cell_free);
 
 // Body velocities of a packing in the order of the columns, strain rates appended (a free cell only).
 std::vector<double> body_velocities(const Packing<2>& packing, const DofLayout& layout, const Vec2& strain_rate);
 
-// Forces of a packing's links (N, T, M as stored) in the order of the rows.
-std::vector<double> link_forces(const Packing<2>& packing, const RigidityMatrix& matrix);
+// Forces of a network's links (N, T, M as stored; pressure and friction of an overlap) in the order of the rows.
+std::vector<double> link_forces(const LinkNetwork& network, const RigidityMatrix& matrix);
 
 }  // namespace isostat

@@ -21,7 +21,7 @@ template <class F>
 struct Rows {
   struct Row {
     std::uint32_t begin = 0;  // first block
-    std::int32_t link = 0;    // index into Packing::links
+    std::int32_t link = 0;    // of LinkNetwork
     RowKind kind = RowKind::normal;
   };
   std::vector<RowBlock<F>> blocks;  // a body at most once in a row, the strain last

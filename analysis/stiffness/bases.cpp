@@ -25,9 +25,9 @@ NullVector scaled(Vector v) {
   return {std::move(v), 0};
 }
 
-PseudoInverse normal_inverse(const Packing<2>& packing, NetworkLaw law, bool cell_free, const RigidityMatrix& g) {
+PseudoInverse normal_inverse(const LinkNetwork& network, NetworkLaw law, bool cell_free, const RigidityMatrix& g) {
   return PseudoInverse(weighted_normal_matrix(g, Vector(idx(g.rows()), 1.0)),
-                       dependent_columns(packing, law, cell_free), SparseCholesky::Form::definite);
+                       dependent_columns(network, law, cell_free), SparseCholesky::Form::definite);
 }
 
 // f - G (G^T G)^+ G^T f, twice: the second pass removes what rounding left of the first.
@@ -41,11 +41,11 @@ Vector project_to_self_stress(const RigidityMatrix& g, const PseudoInverse& inve
 
 // Orthonormal states of `packing`, up to `wanted`, orthogonal to those in `known`: unit forces projected, kept when a
 // share of their length survives. The number to be found is exact, the share only picks which unit forces are used.
-std::vector<Vector> independent_states(const Packing<2>& packing, NetworkLaw law, bool cell_free, std::size_t wanted,
+std::vector<Vector> independent_states(const LinkNetwork& network, NetworkLaw law, bool cell_free, std::size_t wanted,
                                        std::vector<Vector> known) {
   constexpr double kShare[] = {0.1, 1e-3, 1e-6};
-  const RigidityMatrix g = rigidity_matrix(packing, law, cell_free);
-  const PseudoInverse inverse = normal_inverse(packing, law, cell_free, g);
+  const RigidityMatrix g = rigidity_matrix(network, law, cell_free);
+  const PseudoInverse inverse = normal_inverse(network, law, cell_free, g);
   std::vector<Vector> found;
   for (const double share : kShare)
     for (std::size_t r = 0; r < idx(g.rows()) && found.size() < wanted; ++r) {
@@ -68,10 +68,10 @@ std::vector<Vector> independent_states(const Packing<2>& packing, NetworkLaw law
 
 }  // namespace
 
-std::vector<NullVector> floppy_modes(const Packing<2>& packing, NetworkLaw law, bool cell_free, std::size_t most) {
-  const RigidityMatrix g = rigidity_matrix(packing, law, cell_free);
-  const std::vector<char> dependent = dependent_columns(packing, law, cell_free);
-  const PseudoInverse inverse = normal_inverse(packing, law, cell_free, g);
+std::vector<NullVector> floppy_modes(const LinkNetwork& network, NetworkLaw law, bool cell_free, std::size_t most) {
+  const RigidityMatrix g = rigidity_matrix(network, law, cell_free);
+  const std::vector<char> dependent = dependent_columns(network, law, cell_free);
+  const PseudoInverse inverse = normal_inverse(network, law, cell_free, g);
   std::vector<NullVector> modes;
   for (std::size_t c = 0; c < dependent.size() && modes.size() < most; ++c) {
     if (!dependent[c]) continue;
@@ -81,35 +81,35 @@ std::vector<NullVector> floppy_modes(const Packing<2>& packing, NetworkLaw law, 
   return modes;
 }
 
-std::vector<NullVector> self_stress_states(const Packing<2>& packing, NetworkLaw law, bool cell_free,
+std::vector<NullVector> self_stress_states(const LinkNetwork& network, NetworkLaw law, bool cell_free,
                                            std::size_t most) {
-  const auto total = idx(exact_rank(packing, law, cell_free).hyperstatic);
+  const auto total = idx(exact_rank(network, law, cell_free).hyperstatic);
   const std::size_t wanted = std::min(most, total);
-  const RigidityMatrix g = rigidity_matrix(packing, law, cell_free);
-  std::vector<std::size_t> first_row(packing.links.size() + 1, idx(g.rows()));
+  const RigidityMatrix g = rigidity_matrix(network, law, cell_free);
+  std::vector<std::size_t> first_row(network.links() + 1, idx(g.rows()));
   for (std::size_t r = idx(g.rows()); r-- > 0;) first_row[idx(g.link_of_row[r])] = r;
 
-  const RigidClusters clusters = rigid_clusters(packing, law, cell_free);
+  const RigidClusters clusters = rigid_clusters(network, law, cell_free);
   std::vector<Vector> states;
   for (std::size_t c = 0; c < clusters.clusters.size() && states.size() < wanted; ++c) {
     if (clusters.clusters[c].hyperstatic <= 0) continue;
     std::vector<std::int32_t> links;
     std::vector<std::size_t> row_of;  // row of the part -> row of the whole
-    for (std::size_t l = 0; l < packing.links.size(); ++l) {
+    for (std::size_t l = 0; l < network.links(); ++l) {
       if (clusters.cluster_of_link[l] != static_cast<std::int32_t>(c)) continue;
-      for (int k = 0; k < rows_of(packing.links[l].kind, law).count(); ++k) row_of.push_back(first_row[l] + idx(k));
+      for (int k = 0; k < rows_of(network, l, law).count(); ++k) row_of.push_back(first_row[l] + idx(k));
       links.push_back(static_cast<std::int32_t>(l));
     }
-    const Packing<2> part = part_of(packing, {}, links);
+    const OwnedNetwork part = part_of(network, {}, links);
     const auto here = std::min(wanted - states.size(), idx(clusters.clusters[c].hyperstatic));
-    for (const Vector& f : independent_states(part, law, cell_free, here, {})) {
+    for (const Vector& f : independent_states(part.view(), law, cell_free, here, {})) {
       Vector whole(idx(g.rows()), 0.0);
       for (std::size_t r = 0; r < f.size(); ++r) whole[row_of[r]] = f[r];
       states.push_back(std::move(whole));
     }
   }
   if (states.size() < wanted)
-    for (Vector& f : independent_states(packing, law, cell_free, wanted - states.size(), states))
+    for (Vector& f : independent_states(network, law, cell_free, wanted - states.size(), states))
       states.push_back(std::move(f));
 
   std::vector<NullVector> result;
@@ -120,9 +120,9 @@ std::vector<NullVector> self_stress_states(const Packing<2>& packing, NetworkLaw
   return result;
 }
 
-ForceSplit split_forces(const Packing<2>& packing, NetworkLaw law, bool cell_free, const std::vector<double>& forces) {
-  const RigidityMatrix g = rigidity_matrix(packing, law, cell_free);
-  const PseudoInverse inverse = normal_inverse(packing, law, cell_free, g);
+ForceSplit split_forces(const LinkNetwork& network, NetworkLaw law, bool cell_free, const std::vector<double>& forces) {
+  const RigidityMatrix g = rigidity_matrix(network, law, cell_free);
+  const PseudoInverse inverse = normal_inverse(network, law, cell_free, g);
   ForceSplit split;
   split.self_stress = project_to_self_stress(g, inverse, forces);
   split.balancing = forces;

@@ -1,5 +1,6 @@
 #include "analysis/stiffness/link_tangent.hpp"
 
+#include "analysis/stiffness/area_tangent.hpp"
 #include "analysis/stiffness/stiffness_matrix.hpp"
 #include "dem/state/link_ends.hpp"
 #include "geometry/base/index.hpp"
@@ -26,7 +27,8 @@ LinkTangent::Response LinkTangent::to_dof(int d) const {
   return (*this)(d % 3 == 0 ? sign : 0, d % 3 == 1 ? sign : 0, d == 2, d == 5);
 }
 
-std::vector<LinkTangent> link_tangents(const Packing<2>& packing, NetworkLaw network_law, const DiskLaw& law) {
+std::vector<LinkTangent> link_tangents(const LinkNetwork& network, NetworkLaw network_law, const DiskLaw& law) {
+  const Packing<2>& packing = network.packing;
   std::vector<LinkTangent> tangents;
   tangents.reserve(packing.links.size());
   for (const Link<2>& link : packing.links) {
@@ -34,21 +36,23 @@ std::vector<LinkTangent> link_tangents(const Packing<2>& packing, NetworkLaw net
     tangents.push_back({frame(at), at.branch, at.radius_i, at.radius_j, link.normal_force, link.tangential_force,
                         link.moment, link.kind == LinkKind::beam});
   }
-  const RigidityMatrix g = rigidity_matrix(packing, network_law, false);
-  const std::vector<double> stiffness = row_stiffness(packing, g, law);
+  const RigidityMatrix g = rigidity_matrix(network, network_law, false);
+  const std::vector<double> stiffness = row_stiffness(network, g, law);
   for (std::size_t r = 0; r < stiffness.size(); ++r)
-    tangents[idx(g.link_of_row[r])].stiffness[g.kind[r]] = stiffness[r];
+    if (!network.is_area(idx(g.link_of_row[r])))
+      tangents[idx(g.link_of_row[r])].stiffness[g.kind[r]] = stiffness[r];
   return tangents;
 }
 
-UnsymmetricMatrix tangent_stiffness(const Packing<2>& packing, NetworkLaw network_law, const DiskLaw& law) {
-  const DofLayout layout = dof_layout(packing, network_law, false);
-  const std::vector<LinkTangent> tangents = link_tangents(packing, network_law, law);
+UnsymmetricMatrix tangent_stiffness(const LinkNetwork& network, NetworkLaw network_law, const DiskLaw& law) {
+  const Packing<2>& packing = network.packing;
+  const DofLayout layout = dof_layout(network, network_law, false);
+  const std::vector<LinkTangent> tangents = link_tangents(network, network_law, law);
   Triplets entries;
   for (std::size_t l = 0; l < tangents.size(); ++l) {
-    const auto dof = [&](int d) {  // -1: no spin
+    const auto dof = [&](int d) {  // -1: no spin, or held
       const std::int32_t body = d < 3 ? packing.links[l].i : packing.links[l].j;
-      return d % 3 < layout.per_body ? body * static_cast<std::int32_t>(layout.per_body) + d % 3 : -1;
+      return d % 3 < layout.per_body && network.is_free(body) ? body * static_cast<std::int32_t>(layout.per_body) + d % 3 : -1;
     };
     for (int c = 0; c < 6; ++c) {
       if (dof(c) < 0) continue;
@@ -56,6 +60,16 @@ UnsymmetricMatrix tangent_stiffness(const Packing<2>& packing, NetworkLaw networ
       for (int r = 0; r < 6; ++r)
         if (dof(r) >= 0) entries.add(dof(r), dof(c), column[idx(r)]);
     }
+  }
+  for (const AreaLink& area : network.areas) {
+    const AreaTangent t = area_tangent(network, area);
+    for (std::size_t r = 0; r < t.size(); ++r)
+      for (std::size_t c = 0; c < t.size(); ++c) {
+        const std::int32_t row = t.place[r / 3].body, column = t.place[c / 3].body;
+        if (network.is_free(row) && network.is_free(column))
+          entries.add(3 * row + static_cast<std::int32_t>(r % 3), 3 * column + static_cast<std::int32_t>(c % 3),
+                      t.resistance[r * t.size() + c]);
+      }
   }
   return assemble(static_cast<std::int32_t>(layout.size()), entries);
 }

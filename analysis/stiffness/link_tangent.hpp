@@ -33,10 +33,10 @@ struct LinkTangent {
   Response to_dof(int d) const;
 };
 
-// One for each link of the packing. Throws InputError as row_stiffness does.
-std::vector<LinkTangent> link_tangents(const Packing<2>& packing, NetworkLaw network_law, const DiskLaw& law);
+// One for each link of the packing, overlaps left out (area_tangent.hpp). Throws InputError as row_stiffness does.
+std::vector<LinkTangent> link_tangents(const LinkNetwork& network, NetworkLaw network_law, const DiskLaw& law);
 
 // -d(body forces)/d(positions and angles) of the grains in a fixed cell, columns and rows as those of G.
-UnsymmetricMatrix tangent_stiffness(const Packing<2>& packing, NetworkLaw network_law, const DiskLaw& law);
+UnsymmetricMatrix tangent_stiffness(const LinkNetwork& network, NetworkLaw network_law, const DiskLaw& law);
 
 }  // namespace isostat

@@ -1,5 +1,6 @@
 #include "analysis/stiffness/moduli.hpp"
 
+#include "analysis/rigidity/area_rows.hpp"
 #include "analysis/rigidity/independent_columns.hpp"
 #include "analysis/stiffness/pseudo_inverse.hpp"
 #include "analysis/stiffness/stiffness_matrix.hpp"
@@ -10,11 +11,21 @@ namespace isostat {
 namespace {
 
 // Link velocities of unit strains with the grains held: affine relative velocity -e r of the branch vectors.
-std::array<std::vector<double>, 3> strain_velocities(const Packing<2>& packing, const RigidityMatrix& g) {
+std::array<std::vector<double>, 3> strain_velocities(const LinkNetwork& network, const RigidityMatrix& g) {
+  const Packing<2>& packing = network.packing;
   std::array<std::vector<double>, 3> s;
   for (auto& v : s) v.resize(static_cast<std::size_t>(g.rows()));
   for (std::size_t row = 0; row < s[0].size(); ++row) {
-    const Link<2>& link = packing.links[static_cast<std::size_t>(g.link_of_row[row])];
+    const auto l = static_cast<std::size_t>(g.link_of_row[row]);
+    if (network.is_area(l)) {
+      for (const auto& [body, shift, at] :
+           area_loads(network, network.area(l), g.kind[row] == RowKind::tangential)) {
+        const Vec2 x = packing.bodies.position[static_cast<std::size_t>(body)] + packing.cell->offset(shift);
+        s[0][row] -= at[0] * x[0], s[1][row] -= at[1] * x[1], s[2][row] -= 0.5 * (at[0] * x[1] + at[1] * x[0]);
+      }
+      continue;
+    }
+    const Link<2>& link = packing.links[l];
     const LinkEnds<2> at = ends(packing, link);
     const Vec2& r = at.branch;
     const LinkFrame<double> f = frame(at);
@@ -29,14 +40,14 @@ std::array<std::vector<double>, 3> strain_velocities(const Packing<2>& packing, 
 
 }  // namespace
 
-Moduli elastic_moduli(const Packing<2>& packing, NetworkLaw network_law, const DiskLaw& law) {
-  const RigidityMatrix g = rigidity_matrix(packing, network_law, false);
-  const std::vector<double> k = row_stiffness(packing, g, law);
+Moduli elastic_moduli(const LinkNetwork& network, NetworkLaw network_law, const DiskLaw& law) {
+  const RigidityMatrix g = rigidity_matrix(network, network_law, false);
+  const std::vector<double> k = row_stiffness(network, g, law);
   bool definite = true;
   for (double v : k) definite = definite && v > 0;
-  const PseudoInverse inverse(weighted_normal_matrix(g, k), dependent_columns(packing, network_law, false),
+  const PseudoInverse inverse(weighted_normal_matrix(g, k), dependent_columns(network, network_law, false),
                               definite ? SparseCholesky::Form::definite : SparseCholesky::Form::indefinite);
-  const auto strain = strain_velocities(packing, g);
+  const auto strain = strain_velocities(network, g);
   std::array<std::vector<double>, 3> force, load;  // k s and G^T k s
   for (std::size_t b = 0; b < 3; ++b) {
     force[b] = strain[b];
@@ -44,7 +55,7 @@ Moduli elastic_moduli(const Packing<2>& packing, NetworkLaw network_law, const D
     load[b] = g.body_forces(force[b]);
   }
   Moduli c{};
-  const double area = packing.cell->measure();
+  const double area = network.packing.cell->measure();
   for (std::size_t b = 0; b < 3; ++b) {
     const std::vector<double> relaxed = inverse.solve(load[b]);  // grains move by -relaxed
     for (std::size_t a = 0; a < 3; ++a) c[a][b] = (dot(strain[a], force[b]) - dot(load[a], relaxed)) / area;

@@ -13,7 +13,7 @@ using Moduli = std::array<std::array<double, 3>, 3>;  // [F0/a] dsigma_a / de_b,
 
 // Of Gt k G, the tangent at zero force. Exists for floppy networks too: mechanisms resist nothing, and the load of a
 // strain is always in the range of a positive k. Throws FactorisationFailed if distant links make the rest singular.
-Moduli elastic_moduli(const Packing<2>& packing, NetworkLaw network_law, const DiskLaw& law);
+Moduli elastic_moduli(const LinkNetwork& network, NetworkLaw network_law, const DiskLaw& law);
 
 // With the geometric term: forces of the links turn with their frames and levers stretch. Not symmetric when there are
 // tangential forces; solved by UMFPACK. The response is of sigma = (1/A) sum F r, with A and r at the strained state.
@@ -22,6 +22,6 @@ struct TangentModuli {
   double antisymmetric_part = 0;  // |K - K^T| / |K + K^T|, Frobenius norms, of the tangent stiffness of the grains
 };
 // Throws FactorisationFailed if the tangent is singular beyond the translations and the grains without links.
-TangentModuli tangent_moduli(const Packing<2>& packing, NetworkLaw network_law, const DiskLaw& law);
+TangentModuli tangent_moduli(const LinkNetwork& network, NetworkLaw network_law, const DiskLaw& law);
 
 }  // namespace isostat

@@ -51,10 +51,9 @@ std::vector<Pair> dense_pairs(const Piece& piece) {
     for (auto e = static_cast<std::size_t>(piece.tangent.start[static_cast<std::size_t>(c)]);
          e < static_cast<std::size_t>(piece.tangent.start[static_cast<std::size_t>(c) + 1]); ++e)
       a(piece.tangent.row[e], c) = piece.tangent.value[e];
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(piece.translations);
   Eigen::MatrixXd rest = Eigen::MatrixXd::Zero(n, n - held);  // the columns of Q beside the translations
   rest.bottomRows(n - held).setIdentity();
-  rest.applyOnTheLeft(qr.householderQ());
+  if (held > 0) rest.applyOnTheLeft(Eigen::HouseholderQR<Eigen::MatrixXd>(piece.translations).householderQ());
   std::vector<Pair> pairs;
   if (rest.cols() == 0) return pairs;
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(rest.transpose() * a * rest);
@@ -118,14 +117,19 @@ std::vector<Pair> arnoldi_pairs(const Piece& piece, int count, double shift, boo
   return pairs;
 }
 
-std::vector<std::vector<std::size_t>> linked_pieces(const Packing<2>& packing) {
-  UnionFind joined(packing.bodies.size());
-  std::vector<char> linked(packing.bodies.size(), 0);
-  for (const Link<2>& l : packing.links) {
-    const auto i = static_cast<std::size_t>(l.i), j = static_cast<std::size_t>(l.j);
-    linked[i] = linked[j] = 1;
-    joined.join(i, j);
-  }
+std::vector<std::vector<std::size_t>> linked_pieces(const LinkNetwork& network) {
+  UnionFind joined(network.packing.bodies.size());
+  std::vector<char> linked(network.packing.bodies.size(), 0);
+  for (std::size_t l = 0; l < network.links(); ++l)
+    network.each_bond(l, [&](std::int32_t a, std::int32_t b, const ImageShift<2>&) {
+      const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+      linked[i] = linked[j] = 1;
+      joined.join(i, j);
+    });
+  // One pair of an overlap after the other: what one grain's side joins belongs together, too.
+  for (const AreaLink& area : network.areas)
+    for (const AreaPair& p : area.pairs)
+      joined.join(static_cast<std::size_t>(p.i), static_cast<std::size_t>(area.pairs[0].i));
   auto pieces = joined.sets();
   std::erase_if(pieces, [&](const auto& piece) { return !linked[piece.front()]; });
   return pieces;
@@ -133,17 +137,21 @@ std::vector<std::vector<std::size_t>> linked_pieces(const Packing<2>& packing) {
 
 }  // namespace
 
-PrestressedModes prestressed_modes(const Packing<2>& packing, NetworkLaw network_law, const DiskLaw& law, int count) {
-  const auto per_body = static_cast<std::size_t>(dof_layout(packing, network_law, false).per_body);
-  const std::vector<double> mass = dof_masses(packing, network_law);
-  const UnsymmetricMatrix whole = tangent_stiffness(packing, network_law, law);
+PrestressedModes prestressed_modes(const LinkNetwork& network, NetworkLaw network_law, const DiskLaw& law, int count) {
+  const auto per_body = static_cast<std::size_t>(dof_layout(network, network_law, false).per_body);
+  const std::vector<double> mass = dof_masses(network, network_law);
+  const UnsymmetricMatrix whole = tangent_stiffness(network, network_law, law);
 
   PrestressedModes modes;
   modes.antisymmetric_part = antisymmetric_part(whole);
   modes.unlinked_dofs = whole.size;
   std::vector<Pair> pairs;
   std::vector<std::int32_t> number(mass.size(), -1);
-  for (const auto& bodies : linked_pieces(packing)) {
+  for (auto& bodies : linked_pieces(network)) {
+    const auto free = static_cast<std::size_t>(network.free);
+    const bool held = bodies.back() >= free;  // then a translation is no motion without forces
+    while (!bodies.empty() && bodies.back() >= free) bodies.pop_back();
+    if (bodies.empty()) continue;
     ++modes.pieces;
     const std::size_t size = bodies.size() * per_body;
     modes.unlinked_dofs -= static_cast<std::int64_t>(size);
@@ -153,11 +161,11 @@ PrestressedModes prestressed_modes(const Packing<2>& packing, NetworkLaw network
     Piece piece;
     piece.tangent.size = static_cast<std::int32_t>(size);
     piece.tangent.start.push_back(0);
-    piece.translations = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(size), 2);
+    piece.translations = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(size), held ? 0 : 2);
     for (std::size_t b = 0; b < bodies.size(); ++b)
       for (std::size_t d = 0; d < per_body; ++d) {
         const std::size_t c = bodies[b] * per_body + d;
-        if (d < 2) piece.translations(number[c], static_cast<Eigen::Index>(d)) = std::sqrt(mass[c]);
+        if (d < 2 && !held) piece.translations(number[c], static_cast<Eigen::Index>(d)) = std::sqrt(mass[c]);
         for (auto e = static_cast<std::size_t>(whole.start[c]); e < static_cast<std::size_t>(whole.start[c + 1]); ++e) {
           const auto r = static_cast<std::size_t>(whole.row[e]);
           piece.tangent.row.push_back(number[r]);
@@ -166,7 +174,7 @@ PrestressedModes prestressed_modes(const Packing<2>& packing, NetworkLaw network
         }
         piece.tangent.start.push_back(static_cast<std::int32_t>(piece.tangent.row.size()));
       }
-    piece.translations.col(0).normalize(), piece.translations.col(1).normalize();
+    if (!held) piece.translations.col(0).normalize(), piece.translations.col(1).normalize();
 
     const bool dense = size <= kDensePiece;
     if (!dense) modes.shift = std::min(modes.shift, -kShift * piece.diagonal);

@@ -1,5 +1,6 @@
 #include "analysis/stiffness/soft_modes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -12,21 +13,35 @@ namespace {
 
 constexpr double kSoftestSquare = 1e-13;  // of |G^T G|: to 3e-7 of the largest singular value
 
+// Of the force on a body: a unit pressure acts on a length.
+double largest_square(const RigidityMatrix& g, std::size_t row) {
+  double largest = 0;
+  for (auto e = static_cast<std::size_t>(g.row_start[row]); e + 1 < static_cast<std::size_t>(g.row_start[row + 1]); ++e)
+    if (g.column[e] % 3 == 0 && g.column[e] < g.layout.strain_column(0))
+      largest = std::max(largest, g.value[e] * g.value[e] + g.value[e + 1] * g.value[e + 1]);
+  return largest > 0 ? largest : 1;
+}
+
 }  // namespace
 
-std::vector<double> smallest_singular_values(const Packing<2>& packing, NetworkLaw law, bool cell_free, int count) {
-  const RigidityMatrix g = rigidity_matrix(packing, law, cell_free);
+std::vector<double> smallest_singular_values(const LinkNetwork& network, NetworkLaw law, bool cell_free, int count) {
+  const Packing<2>& packing = network.packing;
+  const RigidityMatrix g = rigidity_matrix(network, law, cell_free);
   const auto& radius = packing.bodies.radius;
   const double mean_radius = std::accumulate(radius.begin(), radius.end(), 0.0) / static_cast<double>(radius.size());
   std::vector<double> weight(static_cast<std::size_t>(g.rows()), 1.0), scale;
   for (std::size_t r = 0; r < weight.size(); ++r)
-    if (g.kind[r] == RowKind::rolling) weight[r] = mean_radius * mean_radius;
-  for (double r : radius) {
+    if (g.kind[r] == RowKind::rolling)
+      weight[r] = mean_radius * mean_radius;
+    else if (network.is_area(static_cast<std::size_t>(g.link_of_row[r])))
+      weight[r] = 1 / largest_square(g, r);
+  for (std::size_t b = 0; b < static_cast<std::size_t>(network.free); ++b) {
+    const double r = radius[b];
     scale.insert(scale.end(), {1.0, 1.0});
     if (g.layout.per_body == 3) scale.push_back(r * r);
   }
   for (int a = 0; a < g.layout.strains; ++a) scale.push_back(packing.cell->length[a] * packing.cell->length[a]);
-  const LowestModes modes = lowest_modes(weighted_normal_matrix(g, weight), dependent_columns(packing, law, cell_free),
+  const LowestModes modes = lowest_modes(weighted_normal_matrix(g, weight), dependent_columns(network, law, cell_free),
                                          scale, count, true, false, kSoftestSquare);
   std::vector<double> sigma;
   for (double lambda : modes.value) sigma.push_back(std::sqrt(std::max(lambda, 0.0)));

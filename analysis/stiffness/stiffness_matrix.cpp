@@ -28,10 +28,15 @@ ByRow<double> link_stiffness(const Packing<2>& packing, const Link<2>& link, con
   return {distant(law, link.gap).stiffness, 0, 0};
 }
 
-std::vector<double> row_stiffness(const Packing<2>& packing, const RigidityMatrix& g, const DiskLaw& law) {
+std::vector<double> row_stiffness(const LinkNetwork& network, const RigidityMatrix& g, const DiskLaw& law) {
   std::vector<double> k(idx(g.rows()));
-  for (std::size_t r = 0; r < k.size(); ++r)
-    k[r] = link_stiffness(packing, packing.links[idx(g.link_of_row[r])], law)[g.kind[r]];
+  for (std::size_t r = 0; r < k.size(); ++r) {
+    const auto l = idx(g.link_of_row[r]);
+    if (network.is_area(l))
+      k[r] = ByRow<double>{network.area(l).stiffness, network.area(l).tangential_stiffness, 0}[g.kind[r]];
+    else
+      k[r] = link_stiffness(network.packing, network.packing.links[l], law)[g.kind[r]];
+  }
   return k;
 }
 

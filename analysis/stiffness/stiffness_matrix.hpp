@@ -12,7 +12,8 @@ namespace isostat {
 // distant link, a beam's own (dem/state/beam.hpp). Throws InputError if a link is distant and the law has no
 // attraction.
 ByRow<double> link_stiffness(const Packing<2>& packing, const Link<2>& link, const DiskLaw& law);
-std::vector<double> row_stiffness(const Packing<2>& packing, const RigidityMatrix& g, const DiskLaw& law);
+// Of a network; an overlap has Y/L_c and, with friction, its spring. The law is that of contacts between disks.
+std::vector<double> row_stiffness(const LinkNetwork& network, const RigidityMatrix& g, const DiskLaw& law);
 
 // The law of a network that brings none: the default scene's (K_N = K_T = 1e5 F0/a, K_r = 1e-4 a^2 K_N, D0 = 1e-3 a).
 DiskLaw default_network_law();

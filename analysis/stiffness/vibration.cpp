@@ -10,12 +10,13 @@
 
 namespace isostat {
 
-DiskLaw law_of(const AnalysisInput& input) { return input.has_law() ? input.state.law : default_network_law(); }
+DiskLaw law_of(const AnalysisInput& input) { return input.has_law() && !input.triangles ? input.state.law : default_network_law(); }
 
-std::vector<double> dof_masses(const Packing<2>& packing, NetworkLaw network_law) {
+std::vector<double> dof_masses(const LinkNetwork& network, NetworkLaw network_law) {
+  const Packing<2>& packing = network.packing;
   std::vector<double> mass;
-  const bool spins = dof_layout(packing, network_law, false).per_body == 3;
-  for (std::size_t i = 0; i < packing.bodies.size(); ++i) {
+  const bool spins = dof_layout(network, network_law, false).per_body == 3;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(network.free); ++i) {
     if (!(packing.bodies.mass[i] > 0) || !(packing.bodies.inertia[i] > 0))
       throw InputError("bodies", 0, "mass", std::to_string(packing.bodies.mass[i]),
                        "vibrations need positive masses and inertias");
@@ -25,15 +26,15 @@ std::vector<double> dof_masses(const Packing<2>& packing, NetworkLaw network_law
   return mass;
 }
 
-VibrationModes vibration_modes(const Packing<2>& packing, NetworkLaw network_law, const DiskLaw& law, int count,
+VibrationModes vibration_modes(const LinkNetwork& network, NetworkLaw network_law, const DiskLaw& law, int count,
                                bool displacements) {
-  const RigidityMatrix g = rigidity_matrix(packing, network_law, false);
-  const std::vector<double> k = row_stiffness(packing, g, law);
-  const std::vector<char> dependent = dependent_columns(packing, network_law, false);
+  const RigidityMatrix g = rigidity_matrix(network, network_law, false);
+  const std::vector<double> k = row_stiffness(network, g, law);
+  const std::vector<char> dependent = dependent_columns(network, network_law, false);
 
   VibrationModes modes;
   modes.per_body = g.layout.per_body;
-  std::vector<double> mass = dof_masses(packing, network_law);
+  std::vector<double> mass = dof_masses(network, network_law);
   modes.zero_modes = std::count(dependent.begin(), dependent.end(), 1);
   const bool definite = std::all_of(k.begin(), k.end(), [](double v) { return v > 0; });
   LowestModes lowest =

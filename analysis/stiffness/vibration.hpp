@@ -16,14 +16,14 @@ struct VibrationModes {
 };
 
 // Diagonal of M by column of G in a fixed cell: masses and, with spins, inertias. Throws InputError unless positive.
-std::vector<double> dof_masses(const Packing<2>& packing, NetworkLaw network_law);
+std::vector<double> dof_masses(const LinkNetwork& network, NetworkLaw network_law);
 
 // The `count` modes of smallest |omega| > 0. Throws InputError for grains without mass; FactorisationFailed as
 // in lowest_modes.hpp.
-VibrationModes vibration_modes(const Packing<2>& packing, NetworkLaw network_law, const DiskLaw& law, int count,
+VibrationModes vibration_modes(const LinkNetwork& network, NetworkLaw network_law, const DiskLaw& law, int count,
                                bool displacements);
 
-// Law and rows for an input: the state's own law, or the default of a network.
+// Of contacts between disks: the state's own law, or the default of a network.
 DiskLaw law_of(const AnalysisInput& input);
 
 }  // namespace isostat

@@ -9,6 +9,7 @@
 #include "dem/disks/physical_hash.hpp"
 #include "dem/files/atomic_file.hpp"
 #include "dem/input_error.hpp"
+#include "dem/triangles/physical_hash.hpp"
 
 namespace isostat {
 namespace {
@@ -25,12 +26,24 @@ std::optional<double> number(const Json& json) {
 
 std::string_view status_name(RunStatus status) { return kNames[static_cast<std::size_t>(status)]; }
 
-RunRecord record_of(const State<Disks>& state) {
+namespace {
+
+template <class System>
+RunRecord common_record(const State<System>& state) {
   RunRecord record;
   record.steps = state.step;
   record.time = state.time;
   record.certified = state.certificate.equilibrated;
   record.hash = physical_hash(state);
+  return record;
+}
+
+}  // namespace
+
+RunRecord record_of(const State<TriangleGrains>& state) { return common_record(state); }
+
+RunRecord record_of(const State<Disks>& state) {
+  RunRecord record = common_record(state);
   AnalysisInput input;
   input.state = state;
   input.links_given = true;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "dem/disks/disks.hpp"
+#include "dem/triangles/triangles.hpp"
 
 namespace isostat {
 
@@ -22,15 +23,16 @@ struct RunRecord {
   std::string reason;                 // one line; empty for ok
   std::optional<double> cpu_seconds;  // [s] of stepping, all parts of an interrupted run; none: not known
   std::int64_t steps = 0;
-  double time = 0;                       // [T0]
+  double time = 0;                       // [T0], triangles [s]
   bool certified = false;                // in equilibrium by the criteria of Sec. II.D
   std::optional<double> solid_fraction;  // Phi
-  std::optional<double> z;               // as in `analyze`
+  std::optional<double> z;               // both as in `analyze`; none for triangles
   std::string hash;                      // of the state that it tells of
 };
 
 // What can be read off the state itself.
 RunRecord record_of(const State<Disks>& state);
+RunRecord record_of(const State<TriangleGrains>& state);
 
 void write_record(const RunRecord& record, const std::string& path);
 // None if there is no such file, or none that can be understood (a record is no loss: the state is what counts).

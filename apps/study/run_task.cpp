@@ -1,6 +1,5 @@
 #include "apps/study/run_task.hpp"
 
-#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -34,14 +33,13 @@ RunRecord adopted(const State<System>& state) {
 // Tells the parent how far the run is, a few times a second.
 class Teller {
  public:
-  void operator()(const Progress& p, std::size_t stages) {
+  void operator()(const Progress& p, const Scene& scene) {
     const double now = wall_seconds();
     if (now - last_ < kTellSeconds) return;
     last_ = now;
-    char text[160];
-    std::snprintf(text, sizeof text, "stage %d/%zu  t %.1f T0%s  %s %.3g x tolerance", p.stage + 1, stages, p.time,
-                  solid_fraction_text(p.solid_fraction).c_str(), p.last.name.c_str(), p.last.ratio);
-    TaskLink::send(text);
+    TaskLink::send("stage " + std::to_string(p.stage + 1) + "/" + std::to_string(scene.stages.size()) + "  " +
+                   time_text(p.time, scene.system) + solid_fraction_text(p.solid_fraction) + "  " +
+                   missing_text(p, scene.stages[static_cast<std::size_t>(p.stage)]));
   }
 
  private:
@@ -57,7 +55,7 @@ RunRecord make_state(const StudyRun& run, bool tell_progress) {
   Teller tell;
   SampleWatch watch;
   watch.interrupted = TaskLink::stop_requested;
-  if (tell_progress) watch.progress = [&](const Progress& p) { tell(p, job.scene.stages.size()); };
+  if (tell_progress) watch.progress = [&](const Progress& p) { tell(p, job.scene); };
   // Before the state: a record without its state is not believed, a state without its record would have lost something.
   watch.ended = [&](const AnyState& any, const SampleOutcome& outcome) {
     record = std::visit([](const auto& state) { return record_of(state); }, any);

@@ -32,6 +32,7 @@ class DiskEngine {
   Advance advance(const MotionStep& step, double drag);      // all bodies
   void update_lists(const Cell& cell, double displacement);  // throws ListFailure
   void compute_forces(const Cell& cell, const CellFlow& flow, double time_step);
+  void correct() {}  // of a predictor-corrector: leapfrog has none
   StressSums sums() const;
   void keep_books();  // of the step that ends, if the ledger is kept
 

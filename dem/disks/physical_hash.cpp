@@ -1,43 +1,14 @@
 #include "dem/disks/physical_hash.hpp"
 
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <numeric>
 #include <tuple>
 
-#include "dem/state/hex_digest.hpp"
+#include "dem/state/digest.hpp"
 
 namespace isostat {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "digests are defined on little-endian bytes");
-
-class Digest {
- public:
-  Digest() : state_(XXH3_createState()) { XXH3_128bits_reset(state_); }
-  Digest(const Digest&) = delete;
-  Digest& operator=(const Digest&) = delete;
-  ~Digest() { XXH3_freeState(state_); }
-
-  void add(double x) { raw(x + 0.0); }  // -0 + 0 = +0
-  void add(std::int64_t n) { raw(n); }
-  void add(const Vec2& v) { add(v[0]), add(v[1]); }
-  std::string hex() const {
-    const XXH128_hash_t h = XXH3_128bits_digest(state_);
-    return hex_digest(h.high64, h.low64);
-  }
-
- private:
-  template <class T>
-  void raw(T value) {
-    XXH3_128bits_update(state_, &value, sizeof value);
-  }
-  XXH3_state_t* state_;
-};
 
 // A link seen from its smaller id; seen from the other end n and t turn round, so N and T keep their sign and M, the
 // moment on the far body, changes it.
@@ -93,6 +64,7 @@ std::string physical_hash(const State<Disks>& state) {
     digest.add(static_cast<std::int64_t>(l.kind));
     for (const double x : {l.gap, l.normal_force, l.tangential_force, l.moment}) digest.add(x);
   }
+  add_surroundings(digest, state.scene.gravity, state.surroundings);
   return digest.hex();
 }
 

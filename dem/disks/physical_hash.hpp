@@ -7,8 +7,9 @@
 
 namespace isostat {
 
-// XXH3-128, 32 hexadecimal digits, over time, law, cell and its rate, bodies in the order of their ids, and links with
-// the smaller id first in the order of ids and shift; -0 counts as 0.
+// XXH3-128, 32 hexadecimal digits, over time, law, cell and its rate, bodies in the order of their ids, links with
+// the smaller id first in the order of ids and shift, and gravity and surroundings where there are any; -0
+// counts as 0.
 std::string physical_hash(const State<Disks>& state);
 
 }  // namespace isostat

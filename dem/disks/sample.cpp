@@ -122,6 +122,8 @@ State<Disks> state_from_file(const Scene& scene, std::uint64_t seed) {
   const std::string& path = scene.grains.file;
   PackingFile file = read_packing(path);
   if (file.packing_3d) throw InputError(path, 0, "grains.file", path, "a packing of disks is wanted; this one is 3D");
+  if (file.triangles)
+    throw InputError(path, 0, "grains.file", path, "a packing of disks is wanted; this one is of triangles");
   Packing<2>& packing = file.state.packing;
   if (!packing.cell) refuse_without_cell(scene, path);
   if (!packing.beams.empty())

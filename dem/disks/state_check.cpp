@@ -4,7 +4,9 @@ namespace isostat {
 
 using namespace state_check;
 
-std::optional<StateFault> memory_fault(const DiskMemory& m, std::size_t n) {
+std::optional<StateFault> memory_fault(const DiskMemory& m, const Packing<2>& packing) {
+  if (!packing.beams.empty()) return StateFault{"links", "beams between disks are kept by .net files only"};
+  const std::size_t n = packing.bodies.size();
   for (const std::size_t size : {m.half_velocity.size(), m.half_spin.size(), m.force.size(), m.torque.size(),
                                  m.lists.outer_position.size(), m.lists.inner_position.size()})
     if (size != n && size != 0) return StateFault{"solver", "an array has neither one element a grain nor none"};
@@ -12,15 +14,10 @@ std::optional<StateFault> memory_fault(const DiskMemory& m, std::size_t n) {
   if (auto f = check_values(m.half_spin, "solver/half_spin")) return f;
   if (auto f = check_values(m.force, "solver/force")) return f;
   if (auto f = check_values(m.torque, "solver/torque")) return f;
-  if (auto f = check_values(m.lists.outer_position, "solver/outer_position")) return f;
-  if (auto f = check_values(m.lists.inner_position, "solver/inner_position")) return f;
   for (const PairMemory<DiskHistory>& p : m.pairs)
     if (!names_two_bodies(p, n) || !finite(p.history.tangential_force) || !finite(p.history.moment))
       return StateFault{"solver/pairs", "a pair does not join two grains or has a force that is not a finite number"};
-  if (!finite(m.lists.outer_length) || !finite(m.lists.inner_length) || !finite(m.lists.outer_travel) ||
-      !finite(m.lists.inner_travel) || !finite(m.lists.outer_skin) || !finite(m.lists.inner_skin))
-    return StateFault{"solver", "a length that is not a finite number"};
-  return std::nullopt;
+  return lists_fault(m.lists);
 }
 
 std::optional<StateFault> law_fault(const DiskLaw& law) {

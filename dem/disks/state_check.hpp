@@ -5,7 +5,7 @@
 
 namespace isostat {
 
-std::optional<StateFault> memory_fault(const DiskMemory& memory, std::size_t grains);
+std::optional<StateFault> memory_fault(const DiskMemory& memory, const Packing<2>& packing);
 std::optional<StateFault> law_fault(const DiskLaw& law);
 
 }  // namespace isostat

@@ -1,12 +1,12 @@
 #include "dem/files/network_file.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <unordered_map>
 
 #include "dem/files/atomic_file.hpp"
+#include "dem/files/network_lines.hpp"
 #include "dem/input_error.hpp"
 #include "dem/state/beam.hpp"
 #include "dem/state/link_ends.hpp"
@@ -15,31 +15,8 @@
 namespace isostat {
 namespace {
 
-using Fields = std::vector<std::string_view>;
-
-// Fields of a line, comment removed.
-void split(std::string_view line, Fields& fields) {
-  fields.clear();
-  line = line.substr(0, line.find('#'));
-  constexpr std::string_view space = " \t\r\v\f";
-  for (std::size_t at = line.find_first_not_of(space); at != std::string_view::npos;) {
-    const std::size_t end = std::min(line.find_first_of(space, at), line.size());
-    fields.push_back(line.substr(at, end - at));
-    at = line.find_first_not_of(space, end);
-  }
-}
-
-template <class Number>
-std::optional<Number> number(std::string_view text) {
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  if constexpr (std::is_floating_point_v<Number>) {
-    if (!std::isfinite(value)) return std::nullopt;
-  }
-  return value;
-}
+using network_lines::Fields;
+using network_lines::number;
 
 template <int D>
 class NetworkParser {
@@ -47,23 +24,19 @@ class NetworkParser {
   explicit NetworkParser(const std::string& path) : path_(path) {}
 
   NetworkFile<D> parse(std::string_view text, std::optional<double> gap_tolerance) {
-    Fields f;
-    int line = 0;
-    for (std::size_t at = 0; at < text.size();) {
-      const std::size_t end = std::min(text.find('\n', at), text.size());
-      split(text.substr(at, end - at), f);
-      ++line;
-      at = end + 1;
-      if (f.empty()) continue;
+    network_lines::each_line(text, [&](int line, const Fields& f) {
       if (f[0] == "cell")
         cell(line, f);
       else if (f[0] == "grain")
         grain(line, f);
       else if (f[0] == "contact" || f[0] == "beam")
-        links_.push_back({line, {f.begin(), f.end()}});
+        links_.push_back({line, f});
       else
-        fault(line, "", f[0], "a line starts with cell, grain, contact or beam");
-    }
+        fault(line, "", f[0],
+              f[0] == "triangle"
+                  ? "a network is of grains or of triangles, not of both"
+                  : "a line starts with cell, grain, contact or beam, or with triangle in a network of triangles");
+    });
     check_placement();
     for (const auto& [at, fields] : links_) {
       const bool is_beam = fields[0] == "beam";
@@ -302,16 +275,14 @@ NetworkFile<D> read_network(const std::string& path, std::optional<double> gap_t
   return parse_network<D>(read_whole_file(path), path, gap_tolerance);
 }
 
-int network_dimension(const std::string& path) {
-  const std::string text = read_whole_file(path);
-  Fields f;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    split(std::string_view(text).substr(at, end - at), f);
-    if (!f.empty() && f[0] == "grain") return f.size() == 6 ? 3 : 2;
-    at = end + 1;
-  }
-  return 2;
+NetworkKind network_kind(const std::string& path) {
+  std::optional<NetworkKind> kind;
+  network_lines::each_line(read_whole_file(path), [&](int, const Fields& f) {
+    if (kind) return;
+    if (f[0] == "triangle") kind = NetworkKind::triangles;
+    if (f[0] == "grain") kind = f.size() == 6 ? NetworkKind::space : NetworkKind::plane;
+  });
+  return kind.value_or(NetworkKind::plane);
 }
 
 namespace {

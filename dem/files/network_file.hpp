@@ -34,8 +34,10 @@ NetworkFile<D> parse_network(std::string_view text, const std::string& path,
                              std::optional<double> gap_tolerance = std::nullopt);
 inline constexpr std::size_t kMaxFaults = 1000;
 
-// Dimension of a network file: number of coordinates in its first grain line; 2 if it has none.
-int network_dimension(const std::string& path);
+// What a network is of: says the first line of a grain (by its number of coordinates) or triangle; plane if there is
+// none. Networks of triangles: dem/triangles/network_file.hpp.
+enum class NetworkKind { plane, space, triangles };
+NetworkKind network_kind(const std::string& path);
 
 // Grains and links with 17 significant digits. write_network writes to a temporary name and renames it. Both throw
 // InputError if a beam is not that of a network (no column says its stiffness or load), write_network also if the path

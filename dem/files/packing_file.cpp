@@ -16,6 +16,9 @@
 #include "dem/state/link_ends.hpp"
 #include "dem/state/state_check.hpp"
 #include "dem/state/touching.hpp"
+#include "dem/triangles/network_file.hpp"
+#include "dem/triangles/network_law.hpp"
+#include "dem/triangles/touching_triangles.hpp"
 
 namespace isostat {
 namespace {
@@ -94,6 +97,21 @@ void read_network_into(PackingFile& file, const std::string& path, const Packing
     if (!file.links_given) find_touching(network.packing, reading);
   }
   set_packing(file, std::move(network.packing), path);
+}
+
+void read_triangles_into(PackingFile& file, const std::string& path, const PackingReading& reading) {
+  std::optional<Vec2> box;
+  if (reading.box && reading.box->size() != 2) throw InputError(path, 0, "--box", "", "needs 2 edges for this file");
+  if (reading.box) box = Vec2{{(*reading.box)[0], (*reading.box)[1]}};
+  TriangleNetworkFile network = read_triangle_network(path, box);
+  file.triangles = foreign_state(std::move(network.packing));
+  file.corners = std::move(network.triangles);
+}
+
+void take(PackingFile& file, State<Disks> state) { file.state = std::move(state); }
+[[maybe_unused]] void take(PackingFile& file, State<TriangleGrains> state) {
+  file.corners = placed_triangles(state.packing);
+  file.triangles = std::move(state);
 }
 
 // Grains of a table, a cell, and the links of a second table if there is one.
@@ -181,7 +199,8 @@ PackingFormat sniff_packing_format(const std::string& path) {
     const std::size_t first = line.find_first_not_of(" \t\r\v\f");
     if (first == std::string::npos || line[first] == '#') continue;
     const std::string word = line.substr(first, line.find_first_of(" \t\r,", first) - first);
-    if (word == "cell" || word == "grain" || word == "contact" || word == "beam") return PackingFormat::network;
+    if (word == "cell" || word == "grain" || word == "contact" || word == "beam" || word == "triangle")
+      return PackingFormat::network;
     if (word == "ITEM:") return PackingFormat::dump;
     if (line.find(',') != std::string::npos) return PackingFormat::csv;
     break;
@@ -200,14 +219,21 @@ PackingFile read_packing(const std::string& given_path, const PackingReading& re
   switch (file.format) {
     case PackingFormat::state:
       if (reading.box) throw InputError(path, 0, "--box", "", "a state has its own cell; leave --box out");
-      file.state = read_state<Disks>(path);
+      std::visit([&](auto&& state) { take(file, std::move(state)); }, read_state(path));
       file.links_given = true;
       break;
     case PackingFormat::network:
-      if (network_dimension(path) == 3)
-        read_network_into<3>(file, path, reading);
-      else
-        read_network_into<2>(file, path, reading);
+      switch (network_kind(path)) {
+        case NetworkKind::plane:
+          read_network_into<2>(file, path, reading);
+          break;
+        case NetworkKind::space:
+          read_network_into<3>(file, path, reading);
+          break;
+        case NetworkKind::triangles:
+          read_triangles_into(file, path, reading);
+          break;
+      }
       break;
     case PackingFormat::dump:
       read_dump(file, path, reading);
@@ -222,6 +248,14 @@ PackingFile read_packing(const std::string& given_path, const PackingReading& re
 State<Disks> foreign_state(Packing<2> packing) {
   State<Disks> state;
   state.packing = std::move(packing);
+  return state;
+}
+
+State<TriangleGrains> foreign_state(TrianglePacking packing) {
+  State<TriangleGrains> state;
+  state.packing = std::move(packing);
+  state.law = triangle_network_law();
+  state.scene.system = SceneSystem::triangles;
   return state;
 }
 

@@ -6,6 +6,7 @@
 
 #include "dem/state/packing.hpp"
 #include "dem/systems.hpp"
+#include "geometry/triangle_signs.hpp"
 
 namespace isostat {
 
@@ -13,9 +14,11 @@ enum class PackingFormat { state, network, dump, csv };
 
 struct PackingFile {
   PackingFormat format = PackingFormat::state;
-  State<Disks> state;                    // of a planar file; of another format than a state: foreign_state()
-  std::optional<Packing<3>> packing_3d;  // of a 3D file; `state` then has no grains
-  bool links_given = false;              // the file lists its links; false: found by touching
+  State<Disks> state;                              // of a planar file; of another format than a state: foreign_state()
+  std::optional<Packing<3>> packing_3d;            // of a 3D file; `state` then has no grains
+  std::optional<State<TriangleGrains>> triangles;  // of a file of triangles; `state` then has no grains
+  std::vector<Triangle> corners;                   // of the triangles, anticlockwise: of a network as its file has them
+  bool links_given = false;                        // the file lists its links; false: found by touching
 };
 
 struct PackingReading {
@@ -32,5 +35,7 @@ PackingFormat sniff_packing_format(const std::string& path);
 
 // A state for a foreign packing: no law, no history, time 0; kinds, gaps and forces of the links as given.
 State<Disks> foreign_state(Packing<2> packing);
+// The same for triangles, with the law of a network of triangles.
+State<TriangleGrains> foreign_state(TrianglePacking packing);
 
 }  // namespace isostat

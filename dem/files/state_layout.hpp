@@ -1,6 +1,7 @@
-// Format version 3 of a state file, described once: writing and reading both follow transfer(). Io is StateWriter or
-// StateReader of dem/files/state_file.cpp. Structured bindings name every member, so that a new member of State does
-// not compile until it has its place here. Raise kStateFormatVersion and extend docs/formats.md with any change.
+// Format version 4 of a state file, described once: writing and reading both follow transfer(). Io is StateWriter or
+// StateReader of dem/files/state_io.hpp. Structured bindings name every member, so that a new member of State does
+// not compile until it has its place here. Raise kStateFormatVersion and extend docs/formats.md with any change;
+// io.since() says whether a member is there in an older file.
 #pragma once
 #include "dem/state/state.hpp"
 
@@ -21,6 +22,17 @@ void transfer_progress(Io& io, StageProgress& progress) {
   io.value("/progress", "start_stress", start_stress);
   io.value("/progress", "peak_stress", peak_stress);
   io.value("/progress", "drifting", drifting);
+}
+
+template <class Io>
+void transfer_surroundings(Io& io, Surroundings& surroundings) {
+  auto& [start_offset, start_angle, open, grains_left, mass_left, last_left] = surroundings;
+  io.value("/surroundings", "start_offset", start_offset);
+  io.value("/surroundings", "start_angle", start_angle);
+  io.value("/surroundings", "open", open);
+  io.value("/surroundings", "grains_left", grains_left);
+  io.value("/surroundings", "mass_left", mass_left);
+  io.value("/surroundings", "last_left", last_left);
 }
 
 template <class Io>
@@ -62,7 +74,6 @@ template <class Io, class System>
 void transfer(Io& io, State<System>& state) {
   auto& [packing, law, time, step, time_step, cell_motion, imposed_stress, memory, progress, surroundings, ledger,
          certificate, scene, seed, random_counter] = state;
-  static_cast<void>(surroundings);  // stored from format 4 on
   io.value("/run", "time", time);
   io.value("/run", "step", step);
   io.value("/run", "time_step", time_step);
@@ -78,6 +89,7 @@ void transfer(Io& io, State<System>& state) {
   io.value("/cell", "stress", stress);
   transfer_memory(io, memory);
   transfer_progress(io, progress);
+  if (io.since(4)) transfer_surroundings(io, surroundings);
   transfer_ledger(io, ledger);
   transfer_certificate(io, certificate);
   io.scene("/scene", scene);

@@ -20,7 +20,7 @@ class Observers {
   void begin_stage(const State<System>& s) {
     half_step_ = 0.5 * s.time_step;
     if (observes()) last_observation_ = std::floor((s.time + half_step_) / hooks_.observe_interval);
-    solid_fraction_before_ = solid_fraction(s.packing.bodies, s.packing.cell);
+    solid_fraction_before_ = solid_fraction(s.packing);
   }
 
   // [T0] the next time at which somebody wants to look; infinite: nobody does.
@@ -49,8 +49,8 @@ class Observers {
   // At every look at the packing, with a fresh state and its certificate.
   void look(const State<System>& s) {
     if (hooks_.progress)
-      hooks_.progress({s.progress.stage, s.time, solid_fraction(s.packing.bodies, s.packing.cell),
-                       worst_criterion(s.certificate), &s.certificate});
+      hooks_.progress(
+          {s.progress.stage, s.time, solid_fraction(s.packing), worst_criterion(s.certificate), &s.certificate});
     if (hooks_.checkpoint && hooks_.checkpoint_seconds > 0 &&
         wall_seconds() - last_checkpoint_ > hooks_.checkpoint_seconds) {
       hooks_.checkpoint(s);
@@ -63,7 +63,7 @@ class Observers {
   double next_observation() const { return (last_observation_ + 1) * hooks_.observe_interval; }
 
   bool snapshot_wanted(const State<System>& s, double now, const Cell& cell) {
-    const double phi_now = solid_fraction(s.packing.bodies, cell), before = solid_fraction_before_;
+    const double phi_now = solid_fraction(s.packing, cell), before = solid_fraction_before_;
     solid_fraction_before_ = phi_now;
     const auto crossed = [&](double phi) { return (phi - before) * (phi - phi_now) <= 0; };
     const auto due = [&](double t) { return std::abs(t - now) <= half_step_; };

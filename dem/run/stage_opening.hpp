@@ -15,7 +15,7 @@ namespace isostat {
 template <class System>
 Vec2 static_stress(const State<System>& s) {
   if (!s.packing.cell) return {};
-  const StressTensor stress = measured_stress(s.packing);
+  const StressTensor stress = measured_stress(s);
   return {{stress.xx, stress.yy}};
 }
 

@@ -22,6 +22,7 @@ namespace isostat {
 enum class SceneSystem { disks, triangles };
 inline constexpr std::array<std::string_view, 2> kSystemNames{"disks", "triangles"};
 constexpr std::string_view name(SceneSystem system) { return kSystemNames[static_cast<std::size_t>(system)]; }
+constexpr std::string_view time_unit(SceneSystem system) { return system == SceneSystem::triangles ? "s" : "T0"; }
 
 enum class Integrator { verlet, gear };
 inline constexpr std::array<std::string_view, 2> kIntegratorNames{"verlet", "gear"};
@@ -60,6 +61,9 @@ inline constexpr std::array<std::string_view, 8> kUntilNames{"equilibrium", "agg
 static_assert(kUntilNames.size() == static_cast<std::size_t>(Until::separated) + 1, "a name for each end, no more");
 constexpr std::string_view name(Until until) { return kUntilNames[static_cast<std::size_t>(until)]; }
 constexpr bool waits_for_equilibrium(Until until) { return until == Until::equilibrium || until == Until::aggregated; }
+constexpr bool ends_with_event(Until until) {  // of the surroundings
+  return until == Until::empty || until == Until::clogged || until == Until::separated;
+}
 
 // What the springs of friction and rolling keep when their stiffness changes: T and M, or T/K_T and M/K_r.
 enum class Springs { keep_forces, keep_elongations };

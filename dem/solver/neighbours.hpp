@@ -14,6 +14,7 @@
 //   Columns::History   what a pair keeps from step to step; History{} is none
 //   kStride            kernels name body k by kStride k
 //   resize(n), fill(k, bodies, i, j), history(k), remember(k, history), static turned(history)
+//   static inner_skin(displacement of neighbours a step, mean diameter): optional, where the default does not suit
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -68,6 +69,9 @@ class NeighbourLists {
     outer_travel_ += pair_displacement;
     if (!(inner_travel_ <= inner_skin_)) rebuild(bodies, cell, pair_displacement);
   }
+  // Whether update() would rebuild: for who must prepare the bodies.
+  bool outgrown(double pair_displacement) const { return !(inner_travel_ + pair_displacement <= inner_skin_); }
+  double inner_skin() const { return inner_skin_; }  // [a] within which listed pairs are
 
   Columns& columns() { return columns_; }
   const Columns& columns() const { return columns_; }

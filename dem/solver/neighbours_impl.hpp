@@ -95,6 +95,8 @@ void NeighbourLists<Columns>::measure(const Bodies& bodies) {
 
 template <class Columns>
 double NeighbourLists<Columns>::inner_skin_for(double pair_displacement) const {
+  if constexpr (requires { Columns::inner_skin(pair_displacement, mean_diameter_); })
+    return std::min(Columns::inner_skin(pair_displacement, mean_diameter_), lists::kLargestInnerSkin * outer_skin_);
   return std::min(std::max(lists::kInnerSteps * pair_displacement, lists::kSmallestInnerSkin * smallest_diameter_),
                   lists::kLargestInnerSkin * outer_skin_);
 }

@@ -39,6 +39,7 @@ void Solver<System>::step() {
   update_lists(displacement);
   clock.mark(Stage::neighbours);
   engine_.compute_forces(cell_, flow_, dt_);
+  engine_.correct();
   clock.mark(Stage::forces);
   measure_stress();
   engine_.keep_books();

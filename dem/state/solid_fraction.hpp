@@ -18,4 +18,14 @@ double solid_fraction(const Bodies<D>& bodies, const std::optional<PeriodicCell<
   return sum / cell->measure();
 }
 
+template <int D>
+double solid_fraction(const Packing<D>& packing, const std::optional<PeriodicCell<D>>& cell) {
+  return solid_fraction(packing.bodies, cell);
+}
+// Of a packing in its own cell; each system's packing has the form with a cell.
+template <class Packing>
+double solid_fraction(const Packing& packing) {
+  return solid_fraction(packing, packing.cell);
+}
+
 }  // namespace isostat

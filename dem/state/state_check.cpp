@@ -10,30 +10,6 @@ namespace {
 using Broken = std::optional<StateFault>;
 
 template <int D>
-Broken check_bodies(const Packing<D>& packing) {
-  const Bodies<D>& b = packing.bodies;
-  const std::size_t n = b.size();
-  for (const std::size_t size :
-       {b.position.size(), b.velocity.size(), b.spin.size(), b.radius.size(), b.mass.size(), b.inertia.size()})
-    if (size != n) return StateFault{"particles/grains", "arrays of different lengths"};
-  std::vector<std::int64_t> ids = b.id;
-  std::sort(ids.begin(), ids.end());
-  if (const auto twice = std::adjacent_find(ids.begin(), ids.end()); twice != ids.end())
-    return StateFault{"particles/grains/id", std::to_string(*twice) + " occurs twice"};
-  if (auto f = check_values(b.position, "particles/grains/position")) return f;
-  if (auto f = check_values(b.velocity, "particles/grains/velocity")) return f;
-  if (auto f = check_values(b.spin, "particles/grains/spin")) return f;
-  if (auto f = check_values(b.radius, "particles/grains/radius", true)) return f;
-  if (auto f = check_values(b.mass, "particles/grains/mass", true)) return f;
-  if (auto f = check_values(b.inertia, "particles/grains/inertia", true)) return f;
-  if (packing.cell)
-    for (int k = 0; k < D; ++k)
-      if (!(packing.cell->length[k] > 0) || !std::isfinite(packing.cell->length[k]))
-        return StateFault{"particles/grains/box/edges", "an edge is not positive and finite"};
-  return std::nullopt;
-}
-
-template <int D>
 Broken check_links(const Packing<D>& packing) {
   for (std::size_t k = 0; k < packing.links.size(); ++k) {
     const Link<D>& l = packing.links[k];
@@ -53,10 +29,42 @@ Broken check_links(const Packing<D>& packing) {
 }  // namespace
 
 template <int D>
+std::optional<StateFault> bodies_fault(const Bodies<D>& b, const std::string& group) {
+  const std::size_t n = b.size();
+  for (const std::size_t size :
+       {b.position.size(), b.velocity.size(), b.spin.size(), b.radius.size(), b.mass.size(), b.inertia.size()})
+    if (size != n) return StateFault{group, "arrays of different lengths"};
+  std::vector<std::int64_t> ids = b.id;
+  std::sort(ids.begin(), ids.end());
+  if (const auto twice = std::adjacent_find(ids.begin(), ids.end()); twice != ids.end())
+    return StateFault{group + "/id", std::to_string(*twice) + " occurs twice"};
+  if (auto f = check_values(b.position, group + "/position")) return f;
+  if (auto f = check_values(b.velocity, group + "/velocity")) return f;
+  if (auto f = check_values(b.spin, group + "/spin")) return f;
+  if (auto f = check_values(b.radius, group + "/radius", true)) return f;
+  if (auto f = check_values(b.mass, group + "/mass", true)) return f;
+  if (auto f = check_values(b.inertia, group + "/inertia", true)) return f;
+  return std::nullopt;
+}
+
+template <int D>
+std::optional<StateFault> cell_fault(const std::optional<PeriodicCell<D>>& cell, const std::string& group) {
+  if (!cell) return std::nullopt;
+  for (int k = 0; k < D; ++k)
+    if (!(cell->length[k] > 0) || !std::isfinite(cell->length[k]))
+      return StateFault{group + "/box/edges", "an edge is not positive and finite"};
+  return std::nullopt;
+}
+
+template <int D>
 std::optional<StateFault> packing_fault(const Packing<D>& packing) {
-  if (auto f = check_bodies(packing)) return f;
+  const std::string group = "particles/grains";
+  if (auto f = bodies_fault(packing.bodies, group)) return f;
+  if (auto f = cell_fault(packing.cell, group)) return f;
   return check_links(packing);
 }
+template std::optional<StateFault> bodies_fault(const Bodies<2>&, const std::string&);
+template std::optional<StateFault> cell_fault(const std::optional<PeriodicCell<2>>&, const std::string&);
 template std::optional<StateFault> packing_fault(const Packing<2>&);
 template std::optional<StateFault> packing_fault(const Packing<3>&);
 

@@ -1,11 +1,13 @@
 // What every stored State obeys: array sizes, finite numbers, indices in range.
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "dem/state/list_memory.hpp"
 #include "dem/state/state.hpp"
 
 namespace isostat {
@@ -23,10 +25,14 @@ template <int D>
 bool finite(const Vec<D>& v) {
   return std::all_of(v.c.begin(), v.c.end(), [](double x) { return std::isfinite(x); });
 }
+template <std::size_t N>
+bool finite(const std::array<Vec2, N>& vectors) {
+  return std::all_of(vectors.begin(), vectors.end(), [](const Vec2& v) { return finite(v); });
+}
 
 // Every element finite, and positive where asked.
 template <class T>
-std::optional<StateFault> check_values(const std::vector<T>& values, const char* field, bool positive = false) {
+std::optional<StateFault> check_values(const std::vector<T>& values, const std::string& field, bool positive = false) {
   for (std::size_t k = 0; k < values.size(); ++k) {
     if (!finite(values[k])) return StateFault{field, "element " + std::to_string(k) + " is not a finite number"};
     if constexpr (std::is_same_v<T, double>)
@@ -41,9 +47,25 @@ bool names_two_bodies(const Pair& pair, std::size_t n) {
   return in(pair.i) && in(pair.j) && (pair.i != pair.j || pair.shift != decltype(pair.shift){});
 }
 
+// Lengths of the neighbour lists, and their positions.
+inline std::optional<StateFault> lists_fault(const ListMemory& m) {
+  if (auto f = check_values(m.outer_position, "solver/outer_position")) return f;
+  if (auto f = check_values(m.inner_position, "solver/inner_position")) return f;
+  if (!finite(m.outer_length) || !finite(m.inner_length) || !finite(m.outer_travel) || !finite(m.inner_travel) ||
+      !finite(m.outer_skin) || !finite(m.inner_skin))
+    return StateFault{"solver", "a length that is not a finite number"};
+  return std::nullopt;
+}
+
 }  // namespace state_check
 
-// The first broken rule, if any.
+// The first broken rule of ids, arrays and numbers, if any; `group` is where they lie in the file.
+template <int D>
+std::optional<StateFault> bodies_fault(const Bodies<D>& bodies, const std::string& group);
+template <int D>
+std::optional<StateFault> cell_fault(const std::optional<PeriodicCell<D>>& cell, const std::string& group);
+
+// The same of a whole packing, links included.
 template <int D>
 std::optional<StateFault> packing_fault(const Packing<D>& packing);
 
@@ -62,15 +84,18 @@ std::optional<StateFault> run_fault(const State<System>& s) {
   if (!finite(s.progress.start_time) || !finite(s.progress.quiet_since) || !finite(s.progress.unchanged_since) ||
       !finite(s.progress.start_stiffness) || !finite(s.progress.start_stress) || !finite(s.progress.peak_stress))
     return StateFault{"progress", "a number that is not finite"};
+  const Surroundings& around = s.surroundings;
+  if (!finite(around.start_offset) || !finite(around.start_angle) || !finite(around.mass_left) ||
+      !finite(around.last_left) || around.grains_left < 0 || around.mass_left < 0)
+    return StateFault{"surroundings", "a number that is not finite, or a negative count or mass"};
   return std::nullopt;
 }
 
-// The system says what holds for its memory and law (dem/disks/state_check.hpp).
+// The system says what holds for its memory, given the packing, and for its law (dem/disks/state_check.hpp).
 template <class System>
 std::optional<StateFault> state_fault(const State<System>& state) {
   if (auto f = packing_fault(state.packing)) return f;
-  if (!state.packing.beams.empty()) return StateFault{"links", "beams between disks are kept by .net files only"};
-  if (auto f = memory_fault(state.memory, state.packing.bodies.size())) return f;
+  if (auto f = memory_fault(state.memory, state.packing)) return f;
   if (auto f = law_fault(state.law)) return f;
   return run_fault(state);
 }

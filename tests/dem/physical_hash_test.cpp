@@ -84,6 +84,9 @@ TEST(PhysicalHash, SeesEveryPhysicalNumber) {
       [&](State<Disks>& s) { next(s.packing.links[4].normal_force); },
       [&](State<Disks>& s) { next(s.packing.links[4].tangential_force); },
       [&](State<Disks>& s) { s.packing.links[4].moment = -s.packing.links[4].moment; },
+      [&](State<Disks>& s) { s.scene.gravity = 1; },
+      [&](State<Disks>& s) { ++s.surroundings.grains_left; },
+      [&](State<Disks>& s) { next(s.surroundings.start_angle); },
   };
   for (std::size_t k = 0; k < changes.size(); ++k) {
     State<Disks> changed = state;

@@ -63,6 +63,7 @@ TEST(StateFile, FilesOfFormat3AreRead) {
     SCOPED_TRACE(entry.path().filename().string());
     const StateFile file = read_state_file(entry.path().string());
     EXPECT_GT(std::get<State<Disks>>(file.state).step, 1000);
+    EXPECT_EQ(std::get<State<Disks>>(file.state).surroundings, Surroundings{});
     const StateFile again = decode_state(encode_state(file.state, file.provenance), "memory");
     EXPECT_EQ(again.hash, file.hash);
     expect_equal(std::get<State<Disks>>(again.state), std::get<State<Disks>>(file.state));
@@ -113,8 +114,8 @@ TEST(StateFile, OtherFilesAreBadInput) {
   EXPECT_THAT(message_of([&] { read_state<Disks>(folder / "text.h5"); }), HasSubstr("not a state file"));
   EXPECT_FALSE(is_state_file(folder / "text.h5") || is_state_file(folder / "none.h5") || is_state_file("/tmp"));
   std::string later = encode_state(random_state(1, 2, 1));
-  later.replace(later.find("version 3"), 9, "version 4");
-  EXPECT_THAT(message_of([&] { decode_state(later, "later.h5"); }), HasSubstr("format_version = 4"));
+  later.replace(later.find("version 4"), 9, "version 5");
+  EXPECT_THAT(message_of([&] { decode_state(later, "later.h5"); }), HasSubstr("format_version = 5"));
 }
 
 // The image after changes by the HDF5 library itself, sealed anew: what only the inner checks can find.
@@ -163,6 +164,16 @@ void set_attribute(hid_t file, const char* object, const char* name, hid_t type,
   H5Aclose(attribute), H5Oclose(owner);
 }
 
+// Of the file itself.
+void set_text(hid_t file, const char* name, const std::string& text) {
+  H5Adelete(file, name);
+  const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
+  H5Tset_size(type, text.size()), H5Tset_cset(type, H5T_CSET_UTF8);
+  const hid_t attribute = H5Acreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+  EXPECT_GE(H5Awrite(attribute, type, text.data()), 0);
+  H5Aclose(attribute), H5Sclose(space), H5Tclose(type);
+}
+
 struct InnerFault {
   const char* expected;  // in the message
   std::function<void(hid_t)> edit;
@@ -207,6 +218,10 @@ TEST(StateFile, EveryInnerFaultIsNamed) {
        [=](hid_t f) { overwrite(f, "/links/normal_force", H5T_NATIVE_DOUBLE, 6, nan); }},
       {"solver/pairs: a pair does not join",
        [](hid_t f) { overwrite<std::int32_t>(f, "/solver/pairs/i", H5T_NATIVE_INT32, 1, 99); }},
+      {"/@system: is missing", [](hid_t f) { H5Adelete(f, "system"); }},
+      {"/particles/triangles/id: is missing", [](hid_t f) { set_text(f, "system", "triangles"); }},
+      {"/@system = squares: this isostat knows disks and triangles", [](hid_t f) { set_text(f, "system", "squares"); }},
+      {"/surroundings@open: is missing", [](hid_t f) { H5Adelete_by_name(f, "/surroundings", "open", H5P_DEFAULT); }},
       {"format_version = 7",
        [](hid_t f) { set_attribute<std::int64_t>(f, "/", "format_version", H5T_NATIVE_INT64, 7); }},
       {"law: a parameter that is negative",

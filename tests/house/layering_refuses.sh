@@ -7,10 +7,12 @@ trap 'rm -rf "$root"' EXIT
 
 clean_tree() {
   rm -rf "${root:?}"/*
-  mkdir -p "$root"/{geometry,dem/scene,dem/state,dem/solver,dem/files,dem/disks/kernel,analysis,apps}
+  mkdir -p "$root"/{geometry,dem/scene,dem/state,dem/solver,dem/files,dem/{disks,triangles}/kernel,analysis,apps}
   echo '#include <vector>' > "$root/geometry/cell.hpp"
   echo '#include "geometry/cell.hpp"' > "$root/dem/state/state.hpp"
   echo '#include "dem/state/state.hpp"' > "$root/dem/disks/kernel/march.hpp"
+  echo '#include "dem/state/state.hpp"' > "$root/dem/triangles/kernel/march.hpp"
+  echo '#include "dem/state/state.hpp"' > "$root/dem/triangles/engine.hpp"
   echo '#include "dem/state/state.hpp"' > "$root/dem/solver/march.hpp"
   echo '#include <vector>' > "$root/dem/scene/scene.hpp"
   printf '#include <hdf5.h>\n#include "dem/state/state.hpp"\n' > "$root/dem/files/state_file.cpp"
@@ -33,9 +35,12 @@ refuses dem/state/state.hpp '"dem/solver/march.hpp"'
 refuses dem/scene/scene.hpp '"dem/state/state.hpp"'
 refuses dem/state/state.hpp '"dem/disks/disks.hpp"'
 refuses dem/solver/march.hpp '"dem/disks/kernel/march.hpp"'
+refuses dem/state/state.hpp '"dem/triangles/engine.hpp"'
 refuses dem/files/state_file.cpp '"apps/commands.hpp"'
 refuses analysis/counts.hpp '"apps/commands.hpp"'
 refuses analysis/counts.hpp '"dem/disks/kernel/march.hpp"'
+refuses analysis/counts.hpp '"dem/triangles/kernel/march.hpp"'
+refuses analysis/counts.hpp '"dem/triangles/engine.hpp"'
 for header in CGAL/Cartesian.h cholmod.h suitesparse/umfpack.h gsl/gsl_fit.h hdf5.h H5Ipublic.h cairo.h cairo/cairo-svg.h \
     fftw3.h toml++/toml.h; do
   refuses dem/state/state.hpp "<$header>"

@@ -88,6 +88,7 @@ State<Disks> random_state(std::uint64_t seed, int grains, int links) {
   s.scene.seed = d.word() >> 1;
   s.progress = {d.integer(0, static_cast<int>(s.scene.stages.size())), d.real(), d.coin(), d.coin(), d.real()};
   s.progress.drifting = d.coin();
+  if (d.coin()) s.surroundings = {d.vec(), d.real(), d.coin(), d.integer(0, 9), d.positive(), d.real()};
   s.ledger = {d.real(), d.real(), d.real(), d.real(), d.real(), d.real(), d.real(), d.real()};
   Certificate& c = s.certificate;
   for (double* x : {&c.max_force, &c.max_moment, &c.pressure_error, &c.kinetic_energy_per_grain, &c.force_scale,
@@ -166,6 +167,7 @@ void expect_equal(const State<Disks>& a, const State<Disks>& b) {
   EXPECT_SAME(progress.start_stress);
   EXPECT_SAME(progress.peak_stress);
   EXPECT_SAME(progress.drifting);
+  EXPECT_EQ(a.surroundings, b.surroundings);
   EXPECT_SAME(ledger.viscous);
   EXPECT_SAME(ledger.sliding);
   EXPECT_SAME(ledger.rolling);

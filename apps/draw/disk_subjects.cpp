@@ -1,0 +1,182 @@
+#include "apps/draw/subjects.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "analysis/figure/nice_numbers.hpp"
+#include "analysis/network/coordination.hpp"
+#include "analysis/network/force_scale.hpp"
+#include "analysis/rigidity/clusters.hpp"
+#include "analysis/stiffness/pseudo_inverse.hpp"
+#include "analysis/stiffness/vibration.hpp"
+#include "dem/input_error.hpp"
+#include "geometry/pores.hpp"
+
+namespace isostat {
+namespace {
+
+using Content = std::unique_ptr<PictureContent>;
+
+RichText length_unit(const ForceReading& reading) { return reading.law_known ? rich("`a`") : RichText{}; }
+
+Content forces(const Arguments& arguments, const AnalysisInput& input, const ForceReading& reading, double scale) {
+  if (!reading.known) throw InputError(input.path, 0, "--what", "forces", "this file gives no forces; draw grains");
+  ForceOptions options;
+  options.convention.threshold = arguments.number("--threshold");
+  const auto width = arguments.value("--width").value_or(options.convention.threshold ? "total" : "normal");
+  options.convention.width = width == "total" ? ForceMeasure::total : ForceMeasure::normal;
+  options.scale = scale;
+  if (reading.law_known) {
+    const bool by_attraction = input.state.law.attraction >= scale;
+    options.scale_label = by_attraction ? rich("`F`_{0}") : rich("`aP`");
+    options.width_at_scale = by_attraction ? kWidthAtF0 : kWidthAtAP;
+  }
+  if (!reading.cohesive) {
+    const Coordination c = coordination(input.packing(), reading);
+    options.rattler.assign(c.rattler.begin(), c.rattler.end());
+  }
+  return forces_content(std::move(options));
+}
+
+Content velocity(const AnalysisInput& input, const ForceReading& reading, const MotionScale& scale) {
+  const Bodies<2>& b = input.packing().bodies;
+  MotionOptions options{b.velocity, b.spin, rich("`v`"), plain("spin"), {}, {}, {}, scale};
+  if (reading.law_known) options.speed_unit = rich("`a`/`T`_{0}"), options.spin_unit = rich("/`T`_{0}");
+  return motion_content(std::move(options));
+}
+
+// The n-th vibration mode above the zero modes; only ratios of displacements mean something.
+Content mode(const Arguments& arguments, const AnalysisInput& input, const ForceReading& reading) {
+  const auto number = static_cast<int>(arguments.integer("--mode", 1, 1000).value_or(1));
+  const auto refuse = [&](const std::string& why) { throw InputError(input.path, 0, "--what", "modes", why); };
+  VibrationModes modes;
+  try {
+    modes = vibration_modes(input.packing(), input.network_law({}), law_of(input), number, true);
+  } catch (const std::length_error& error) {
+    refuse(error.what());
+  } catch (const FactorisationFailed& error) {
+    refuse(error.what());
+  }
+  if (modes.displacement.size() < static_cast<std::size_t>(number))
+    refuse("has " + std::to_string(modes.displacement.size()) + " vibration modes above its " +
+           std::to_string(modes.zero_modes) + " zero modes");
+  const std::vector<double>& u = modes.displacement.back();
+  MotionOptions options;
+  for (std::size_t i = 0; i < input.packing().bodies.size(); ++i) {
+    const std::size_t at = i * static_cast<std::size_t>(modes.per_body);
+    options.velocity.push_back({{u[at], u[at + 1]}});
+    options.spin.push_back(modes.per_body > 2 ? u[at + 2] : 0.0);
+  }
+  options.symbol = rich("`u`"), options.spin_name = plain("rotation");
+  options.notes.push_back(rich("`ω`_{" + std::to_string(number) + "} = ") +
+                          number_with_unit(modes.omega[static_cast<std::size_t>(number - 1)],
+                                           reading.law_known ? rich("/`T`_{0}") : RichText{}));
+  return motion_content(std::move(options));
+}
+
+Content clusters(const AnalysisInput& input) {
+  const RigidClusters rigid = rigid_clusters(input.packing(), input.network_law({}), false);
+  ClusterOptions options{rigid.cluster_of_grain, rigid.cluster_of_link, {}};
+  for (const RigidCluster& c : rigid.clusters) options.hyperstatic.push_back(c.hyperstatic > 0);
+  return clusters_content(std::move(options));
+}
+
+// Outer walls run clockwise: their area is negative.
+double signed_area(const Polygon& wall) {
+  double twice = 0;
+  for (std::size_t k = 0; k < wall.size(); ++k) {
+    const Vec2 a = wall[k] - wall[0], b = wall[(k + 1) % wall.size()] - wall[0];
+    twice += a[0] * b[1] - b[0] * a[1];
+  }
+  return twice / 2;
+}
+
+PoreMapOptions pores(const AnalysisInput& input, const ForceReading& reading) {
+  const Bodies<2>& b = input.packing().bodies;
+  PoreOptions how;
+  how.with_arcs = true;
+  Pores found;
+  try {
+    found = input.packing().cell ? find_pores(b.position, b.radius, *input.packing().cell, how)
+                                 : find_enclosed_pores(b.position, b.radius, how);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(input.path, 0, "--what", "pores", error.what());
+  }
+  PoreMapOptions options;
+  options.length_unit = length_unit(reading);
+  for (std::size_t p = 0; p < found.pores.size(); ++p) {
+    const Pore& pore = found.pores[p];
+    options.percolating = options.percolating || pore.percolating;
+    if (pore.percolating) continue;
+    for (Polygon& wall : pore_polygons(found, p))
+      if (signed_area(wall) < 0) options.pores.push_back({std::move(wall), pore.area, pore.equivalent_radius});
+  }
+  return options;
+}
+
+std::vector<Content> pores_of_all(const std::vector<AnalysisInput>& inputs, const std::vector<ForceReading>& readings) {
+  std::vector<PoreMapOptions> maps;
+  std::vector<PorePatch> all;
+  for (std::size_t k = 0; k < inputs.size(); ++k) {
+    maps.push_back(pores(inputs[k], readings[k]));
+    for (const PorePatch& p : maps.back().pores) all.push_back({{}, p.area, p.radius});
+  }
+  std::vector<Content> contents;
+  for (PoreMapOptions& map : maps) {
+    map.range = radius_range(all);
+    contents.push_back(pores_content(std::move(map)));
+  }
+  return contents;
+}
+
+std::vector<Content> contents_of(const std::string& what, const Arguments& arguments,
+                                 const std::vector<AnalysisInput>& inputs, const std::vector<ForceReading>& readings) {
+  if (what == "pores") return pores_of_all(inputs, readings);
+  double force = 0;
+  MotionScale motion;
+  for (std::size_t k = 0; k < inputs.size(); ++k) {
+    const Bodies<2>& b = inputs[k].packing().bodies;
+    force = std::max(force, readings[k].scale);
+    motion = larger(motion, motion_scale(b.velocity, b.spin));
+  }
+  std::vector<Content> contents;
+  for (std::size_t k = 0; k < inputs.size(); ++k)
+    contents.push_back(what == "forces"     ? forces(arguments, inputs[k], readings[k], force)
+                       : what == "velocity" ? velocity(inputs[k], readings[k], motion)
+                       : what == "modes"    ? mode(arguments, inputs[k], readings[k])
+                       : what == "clusters" ? clusters(inputs[k])
+                                            : grains_content());
+  return contents;
+}
+
+RichText caption(const AnalysisInput& input) {
+  if (!input.has_law()) return plain(std::filesystem::path(input.path).filename().string());
+  return rich("`t` = ") + number_with_unit(input.state.time, rich("`T`_{0}"));
+}
+
+}  // namespace
+
+Drawing drawing_of(const Arguments& arguments, const std::vector<AnalysisInput>& inputs) {
+  std::vector<ForceReading> readings;
+  for (const AnalysisInput& input : inputs) {
+    if (input.packing_3d)
+      throw InputError(input.path, 0, "", "", "is a packing in 3D; draw shows packings in the plane");
+    if (input.grains() == 0) throw InputError(input.path, 0, "", "", "has no grains to draw");
+    if (input.has_law() != inputs[0].has_law())
+      throw InputError(input.path, 0, "", "",
+                       "is not of one kind with " + inputs[0].path + ": only one has a law, and units");
+    readings.push_back(read_forces(input));
+  }
+  const bool known = std::all_of(readings.begin(), readings.end(), [](const ForceReading& r) { return r.known; });
+  const std::string what = what_to_draw(arguments, known);
+  std::vector<Content> contents = contents_of(what, arguments, inputs, readings);
+  Drawing drawing;
+  drawing.length_unit = length_unit(readings[0]);
+  for (std::size_t k = 0; k < inputs.size(); ++k) {
+    drawing.subjects.push_back(std::make_unique<DiskSubject>(inputs[k].packing(), std::move(contents[k])));
+    drawing.captions.push_back(caption(inputs[k]));
+  }
+  return drawing;
+}
+
+}  // namespace isostat

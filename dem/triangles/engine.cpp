@@ -1,0 +1,365 @@
+#include "dem/triangles/engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dem/run_error.hpp"
+#include "dem/solver/neighbours_impl.hpp"
+#include "dem/triangles/gear_scheme.hpp"
+#include "dem/triangles/kernel/rows.hpp"
+#include "geometry/base/index.hpp"
+
+namespace isostat {
+namespace {
+
+using Store = GrainStore;
+
+constexpr double kMostMove = 0.3;             // [smallest circle of a triangle] in one step: beyond, it has blown up
+constexpr std::size_t kBlocksPerChunk = 512;  // 4096 grains, as the lists
+
+}  // namespace
+
+TriangleEngine::TriangleEngine(const State<TriangleGrains>& state, const CellControl& control,
+                               const SolverOptions& options)
+    : law_(state.law),
+      overlap_needs_{law_.contact, law_.friction > 0 && law_.contact == ContactLaw::overlap_energy, control.moves()},
+      integrator_(state.scene.step.integrator),
+      dt_(state.time_step),
+      time_(state.time),
+      gravity_(state.scene.gravity),
+      surroundings_(state.surroundings),
+      stage_start_(state.progress.start_time),
+      begins_(state.memory.half_velocity.empty()),
+      kinetic_(control.moves()),
+      kernels_(triangle_kernels(overlap_needs_, {law_.damping > 0, control.moves()}, kinetic_, options.isa)),
+      team_(options.threads) {
+  const auto stage = static_cast<std::size_t>(state.progress.stage);
+  if (stage < state.scene.stages.size()) motion_ = state.scene.stages[stage].container;
+  load(state);
+}
+
+void TriangleEngine::load(const State<TriangleGrains>& state) {
+  const TrianglePacking& p = state.packing;
+  store_.load(p, law_, state.memory);
+  cell_ = p.cell;
+  events_ = p.events;
+  smallest_reach_ = INFINITY;
+  for (const double r : p.bodies.radius) smallest_reach_ = std::min(smallest_reach_, r);
+  cut_chunks();
+  kernels_.corners(0, store_.slots(), store_.arrays());
+  lists_.emplace(store_.size(), 0.0, GrainPairs{});
+  if (state.memory.lists.inner_position.empty())
+    build_lists(p.cell, state.memory.pairs);
+  else
+    restore_lists(state);
+}
+
+void TriangleEngine::cut_chunks() {
+  const std::vector<GrainBlock>& blocks = store_.blocks();
+  const std::size_t count = std::max<std::size_t>(1, blocks.size() / kBlocksPerChunk);
+  chunks_.clear();
+  const auto slot_of = [&](std::size_t block) {
+    return block < blocks.size() ? std::size_t{blocks[block].begin} : store_.slots();
+  };
+  for (std::size_t c = 0; c < count; ++c) {
+    const std::size_t begin = blocks.size() * c / count, end = blocks.size() * (c + 1) / count;
+    const std::size_t free = store_.free_slots();
+    chunks_.push_back({begin, end, std::min(slot_of(begin), free), std::min(slot_of(end), free)});
+  }
+}
+
+// ---- lists ----------------------------------------------------------------------------------------------------------
+
+// Springs by grains in storage order; those at smooth walls, which the lists do not know, go by ids.
+void TriangleEngine::take_wall_springs(std::vector<PairMemory<GrainHistory>>& springs) {
+  wall_springs_.clear();
+  std::erase_if(springs, [&](const PairMemory<GrainHistory>& s) {
+    if (idx(s.j) < store_.size()) return false;
+    wall_springs_.push_back({store_.id[idx(s.i)], store_.id[idx(s.j)], s.history.tangential_force});
+    return true;
+  });
+}
+
+void TriangleEngine::build_lists(const Cell& cell, std::vector<PairMemory<GrainHistory>> springs) {
+  take_wall_springs(springs);
+  try {
+    lists_->build(store_, cell, std::move(springs));
+  } catch (const ListFailure& e) {
+    throw RunError(-1, -1, e.what(), "use more grains (grains.count) or a larger cell (grains.solid_fraction)");
+  }
+  cut_chunks();
+  mark_built();
+  build_candidates(store_, cell);
+}
+
+// As they were when the memory was taken: candidates from where the triangles stood then.
+void TriangleEngine::restore_lists(const State<TriangleGrains>& state) {
+  std::vector<PairMemory<GrainHistory>> springs = state.memory.pairs;
+  take_wall_springs(springs);
+  lists_->restore(store_, state.memory.lists, springs);
+  GrainStore then = store_;
+  then[Store::x] = store_[Store::built_x], then[Store::y] = store_[Store::built_y];
+  then[Store::angle] = store_[Store::built_angle];
+  kernels_.corners(0, then.slots(), then.arrays());
+  then.measure_centres();
+  build_candidates(then, state.memory.lists.inner_length == Vec2{}
+                             ? Cell{}
+                             : Cell{PeriodicCell<2>{state.memory.lists.inner_length}});
+  candidates_.set_offsets(cell_);
+}
+
+// Rows are a function of positions and angles alone, whatever wrapping did to them: a restart has no others.
+void TriangleEngine::mark_built() {
+  kernels_.corners(0, store_.slots(), store_.arrays());
+  store_[Store::built_x] = store_[Store::x], store_[Store::built_y] = store_[Store::y];
+  store_[Store::built_angle] = store_[Store::angle];
+}
+
+void TriangleEngine::build_candidates(const GrainStore& store, const Cell& cell) {
+  candidates_.build(store, *lists_, cell, law_, kernels_.separation, lists_->inner_skin(), wall_springs_);
+}
+
+void TriangleEngine::update_lists(const Cell& cell, double displacement) {
+  if (!lists_->outgrown(displacement)) {
+    lists_->update(store_, cell, displacement);
+    return;
+  }
+  candidates_.store_springs(*lists_);
+  wall_springs_ = candidates_.wall_springs(store_);
+  store_.measure_centres();
+  if (store_.grow_circles()) {
+    lists_->update(store_, cell, displacement);
+    if (!std::isfinite(displacement)) throw ListFailure("a velocity is not a number");
+    cut_chunks();
+    mark_built();
+    build_candidates(store_, cell);
+  } else {  // A circle has grown: everything anew.
+    const std::vector<PairMemory<GrainHistory>> kept = candidates_.springs();
+    lists_.emplace(store_.size(), 0.0, GrainPairs{});
+    build_lists(cell, kept);
+  }
+}
+
+// ---- motion ---------------------------------------------------------------------------------------------------------
+
+void TriangleEngine::start_half_steps() {
+  if (integrator_ == Integrator::gear) return;  // velocities are at the full step
+  for (std::size_t s = 0; s < store_.free_slots(); ++s) {
+    const double h = 0.5 * dt_, im = store_[Store::inverse_mass][s];
+    store_[Store::ux][s] -= h * store_[Store::fx][s] * im;
+    store_[Store::uy][s] -= h * (store_[Store::fy][s] * im - gravity_ * store_[Store::heavy][s]);
+    store_[Store::uw][s] -= h * store_[Store::torque][s] * store_[Store::inverse_inertia][s];
+  }
+  drift_tally_ = {};
+  for (std::size_t s = 0; s < store_.free_slots(); ++s) {
+    const double m = store_[Store::mass][s], vx = store_[Store::px][s], vy = store_[Store::py][s];
+    drift_tally_.kinetic[0] += m * vx * vx, drift_tally_.kinetic[1] += m * vy * vy;
+  }
+}
+
+Advance TriangleEngine::advance(const MotionStep& step, double drag) {
+  drag_ = drag;
+  double move = integrator_ == Integrator::gear ? predict() : drift(step);
+  time_ += dt_;
+  move_container();
+  move = std::max(move, container_move_);
+  const double affine = std::max(std::abs(step.scale[0] - 1), std::abs(step.scale[1] - 1));
+  const double range = affine > 0 ? lists_->inner_skin() + 4 * store_.largest_radius() : 0;
+  // Two neighbours, each by its move; the correction before moved them, too.
+  const double displacement = (1.01 + affine) * (2 * (move + correction_) + affine * range);
+  return {displacement, !(move <= kMostMove * smallest_reach_)};
+}
+
+double TriangleEngine::drift(const MotionStep& step) {
+  drift_tallies_.resize(chunks_.size());
+  DriftInput in;
+  in.arrays = store_.arrays();
+  in.time_step = dt_, in.weight = gravity_;
+  for (int a = 0; a < 2; ++a)
+    in.scale[a] = step.scale[a], in.drift[a] = dt_ * step.half_scale[a], in.keep[a] = step.keep[a];
+  in.keep_spin = step.keep_spin;
+  team_.run(static_cast<int>(chunks_.size()), [&](int c) {
+    DriftInput part = in;
+    part.begin = chunks_[idx(c)].slot_begin, part.end = chunks_[idx(c)].slot_end;
+    drift_tallies_[idx(c)] = kernels_.drift(part);
+  });
+  drift_tally_ = {};
+  for (const DriftTally& t : drift_tallies_) {
+    const auto larger = [](double a, double b) { return a > b ? a : b; };
+    drift_tally_.speed_squared = larger(t.speed_squared, drift_tally_.speed_squared);
+    drift_tally_.surface_speed = larger(t.surface_speed, drift_tally_.surface_speed);
+    if (std::isnan(t.speed_squared + t.surface_speed)) drift_tally_.speed_squared = t.speed_squared + t.surface_speed;
+    for (int a = 0; a < 2; ++a) drift_tally_.kinetic[a] += t.kinetic[a];
+  }
+  return dt_ * (std::sqrt(drift_tally_.speed_squared) + drift_tally_.surface_speed);
+}
+
+// Gear's prediction of positions and velocities; ux, uy, uw are at the full step.
+double TriangleEngine::predict() {
+  auto& s = store_;
+  const double h = dt_;
+  double largest = 0;
+  struct Axis {
+    Store::Column r, v, p, b, c, f, inverse;
+  };
+  constexpr Axis axes[] = {
+      {Store::x, Store::ux, Store::px, Store::bx, Store::cx, Store::fx, Store::inverse_mass},
+      {Store::y, Store::uy, Store::py, Store::by, Store::cy, Store::fy, Store::inverse_mass},
+      {Store::angle, Store::uw, Store::pw, Store::bw, Store::cw, Store::torque, Store::inverse_inertia}};
+  for (std::size_t k = 0; k < s.free_slots(); ++k) {
+    double moved[3];
+    for (int a = 0; a < 3; ++a) {
+      const Axis& q = axes[a];
+      const double r1 = h * s[q.v][k];
+      const double r2 =
+          0.5 * h * h *
+          (s[q.f][k] * s[q.inverse][k] - (a == 1 ? gravity_ * s[Store::heavy][k] : 0) - drag_ * s[q.v][k]);
+      const double r3 = s[q.b][k], r4 = s[q.c][k];
+      moved[a] = r1 + r2 + r3 + r4;
+      s[q.r][k] += moved[a];
+      s[q.v][k] = s[q.p][k] = (r1 + 2 * r2 + 3 * r3 + 4 * r4) / h;
+      // The predicted acceleration is kept where the corrector finds it.
+      s[q.f][k] = r2 + 3 * r3 + 6 * r4;
+      s[q.b][k] = r3 + 4 * r4;
+    }
+    const double move = std::hypot(moved[0], moved[1]) + s[Store::reach][k] * std::abs(moved[2]);
+    if (!(move <= largest)) largest = move;
+  }
+  predicted_ = {s[Store::fx], s[Store::fy], s[Store::torque]};
+  kernels_.corners(0, s.free_slots(), s.arrays());
+  return largest;
+}
+
+void TriangleEngine::correct() {
+  if (integrator_ != Integrator::gear || predicted_[0].empty()) return;
+  auto& s = store_;
+  const double h = dt_;
+  double largest = 0;
+  constexpr Store::Column r[] = {Store::x, Store::y, Store::angle}, v[] = {Store::ux, Store::uy, Store::uw},
+                          p[] = {Store::px, Store::py, Store::pw}, f[] = {Store::fx, Store::fy, Store::torque},
+                          b[] = {Store::bx, Store::by, Store::bw}, c[] = {Store::cx, Store::cy, Store::cw};
+  for (std::size_t k = 0; k < s.free_slots(); ++k) {
+    double moved[3];
+    for (int a = 0; a < 3; ++a) {
+      const double inverse = s[a == 2 ? Store::inverse_inertia : Store::inverse_mass][k];
+      const double now =
+          0.5 * h * h * (s[f[a]][k] * inverse - (a == 1 ? gravity_ * s[Store::heavy][k] : 0) - drag_ * s[p[a]][k]);
+      const double error = now - predicted_[idx(a)][k];
+      moved[a] = kGearCorrector[0] * error;
+      s[r[a]][k] += moved[a];
+      s[v[a]][k] += kGearCorrector[1] * error / h;
+      s[p[a]][k] = s[v[a]][k];
+      s[b[a]][k] += kGearCorrector[3] * error;
+      s[c[a]][k] += kGearCorrector[4] * error;
+    }
+    const double move = std::hypot(moved[0], moved[1]) + s[Store::reach][k] * std::abs(moved[2]);
+    if (!(move <= largest)) largest = move;
+  }
+  correction_ = largest;
+}
+
+// Driven grains stand where the container does.
+void TriangleEngine::move_container() {
+  container_move_ = 0;
+  if (store_.free_slots() == store_.slots() || !moves(motion_)) return;
+  const ContainerPlacement at = container_at(motion_, surroundings_, time_ - stage_start_);
+  ContainerPlacement start;  // of the stage
+  start.offset = surroundings_.start_offset, start.angle = surroundings_.start_angle;
+  auto& s = store_;
+  double largest = 0;
+  for (std::size_t k = s.free_slots(); k < s.slots(); ++k) {
+    const Vec2 built = built_at(start, {{s[Store::wall_x][k], s[Store::wall_y][k]}}), r = point_at(at, built);
+    const Vec2 v = velocity_at(at, r);
+    s[Store::x][k] = r[0], s[Store::y][k] = r[1];
+    s[Store::angle][k] = s[Store::wall_angle][k] + (at.angle - start.angle);
+    s[Store::px][k] = s[Store::ux][k] = v[0], s[Store::py][k] = s[Store::uy][k] = v[1];
+    s[Store::pw][k] = s[Store::uw][k] = at.spin;
+    largest = std::max(largest, norm(v) + s[Store::reach][k] * std::abs(at.spin));
+  }
+  container_move_ = 1.5 * dt_ * largest;  // the velocity may have been larger within the step
+  kernels_.corners(s.free_slots(), s.slots(), s.arrays());
+}
+
+// ---- forces ---------------------------------------------------------------------------------------------------------
+
+void TriangleEngine::compute_forces(const Cell& cell, const CellFlow& flow, double time_step) {
+  cell_ = cell;
+  if (kinetic_) candidates_.set_offsets(cell);
+  const GrainArrays arrays = store_.arrays();
+  OverlapInput in;
+  candidates_.show(in);
+  in.rows = arrays.rows, in.loads = arrays.loads;
+  in.px = arrays.px, in.py = arrays.py, in.pw = arrays.pw, in.x = arrays.x, in.y = arrays.y;
+  in.modulus = law_.modulus, in.friction = law_.friction, in.spring_stiffness = law_.tangential_stiffness;
+  in.time_step = time_step;
+  const std::size_t work = std::max(kOverlapWork * candidates_.most_rows(), store_.most_work()) + 8;
+  overlap_tally_ = {};
+  for (int p = 0; p < Candidates::kPhases; ++p) {
+    const std::vector<Candidates::Group>& groups = candidates_.phase(p);
+    overlap_tallies_.assign(groups.size(), {});
+    if (work_.size() < groups.size()) work_.resize(groups.size());
+    team_.run(static_cast<int>(groups.size()), [&](int g) {
+      AlignedVector<double>& scratch = work_[idx(g)];
+      if (scratch.size() < work) scratch.resize(work);
+      OverlapInput part = in;
+      part.begin = groups[idx(g)].begin, part.end = groups[idx(g)].end, part.work = scratch.data();
+      overlap_tallies_[idx(g)] = kernels_.overlap(part);
+    });
+    for (const OverlapTally& t : overlap_tallies_) overlap_tally_ += t;
+  }
+  BeamInput beams;
+  beams.blocks = store_.blocks().data(), beams.arrays = arrays;
+  beams.half_step = integrator_ == Integrator::gear ? 0 : 0.5 * time_step;
+  beams.flow[0] = flow.now[0], beams.flow[1] = flow.now[1];
+  beam_tallies_.assign(chunks_.size(), {});
+  if (work_.size() < chunks_.size()) work_.resize(chunks_.size());
+  team_.run(static_cast<int>(chunks_.size()), [&](int c) {
+    AlignedVector<double>& scratch = work_[idx(c)];
+    if (scratch.size() < work) scratch.resize(work);
+    BeamInput part = beams;
+    part.begin = chunks_[idx(c)].block_begin, part.end = chunks_[idx(c)].block_end, part.work = scratch.data();
+    beam_tallies_[idx(c)] = kernels_.beams(part);
+  });
+  beam_tally_ = {};
+  for (const BeamTally& t : beam_tallies_) beam_tally_ += t;
+}
+
+StressSums TriangleEngine::sums() const {
+  StressSums sums;
+  for (int a = 0; a < 2; ++a) {
+    sums.kinetic[a] = drift_tally_.kinetic[a];
+    sums.virial[a] = overlap_tally_.virial[a] + beam_tally_.virial[a];
+  }
+  return sums;
+}
+
+void TriangleEngine::keep_books() {
+  if (law_.failure == BeamFailure::none) return;
+  if (strain_beams()) split_grains();
+}
+
+// ---- sanity ---------------------------------------------------------------------------------------------------------
+
+std::size_t TriangleEngine::triangles() const {
+  std::size_t n = 0;
+  for (std::size_t g = 0; g < store_.grains(); ++g) n += store_.triangles(g);
+  return n;
+}
+
+void TriangleEngine::check_bodies(std::int64_t step) const {
+  for (std::size_t g = 0; g < store_.grains(); ++g)
+    for (std::size_t t = 0; t < store_.triangles(g); ++t) {
+      const std::size_t s = store_.slot(g, t);
+      const double vx = store_[Store::ux][s], vy = store_[Store::uy][s], w = store_[Store::uw][s];
+      const double move = dt_ * (std::hypot(vx, vy) + store_[Store::reach][s] * std::abs(w));
+      if (!std::isfinite(store_[Store::x][s] + store_[Store::y][s] + store_[Store::angle][s] + vx + vy + w))
+        throw RunError(step, store_.body_id[s], "its position or velocity is not a number", "lower step.fraction");
+      if (!(move <= kMostMove * smallest_reach_))
+        throw RunError(step, store_.body_id[s], "it moves " + std::to_string(move) + " cm in one step",
+                       "lower step.fraction");
+    }
+}
+
+void TriangleEngine::check_overlaps(const Cell&, std::int64_t) const {}
+
+}  // namespace isostat

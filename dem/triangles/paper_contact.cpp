@@ -1,0 +1,147 @@
+#include "dem/triangles/paper_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "geometry/base/index.hpp"
+#include "geometry/triangle_mesh.hpp"
+#include "geometry/triangle_overlap.hpp"
+
+namespace isostat {
+namespace {
+
+double cross(const Vec2& u, const Vec2& v) { return u[0] * v[1] - u[1] * v[0]; }
+double area_of(const Triangle& t) { return 0.5 * doubled_area(t.corner[0], t.corner[1], t.corner[2]); }
+Vec2 centroid_of(const Triangle& t) { return (1.0 / 3) * (t.corner[0] + t.corner[1] + t.corner[2]); }
+Vec2 edge_of(const Triangle& t, int e) { return t.corner[idx(TriangleSigns::next(e))] - t.corner[idx(e)]; }
+// Unit normal of an edge, out of its triangle.
+Vec2 outward(const Vec2& edge) {
+  const double length = norm(edge);
+  return {{edge[1] / length, -edge[0] / length}};
+}
+
+// Sums forces on A, each at a point.
+class Sum {
+ public:
+  Sum(const Triangle& a, const Triangle& b) : a_(centroid_of(a)), b_(centroid_of(b)) {}
+  void add(const Vec2& on_a, const Vec2& at) {
+    sum_.on_a += on_a;
+    sum_.moment_a += cross(at - a_, on_a), sum_.moment_b -= cross(at - b_, on_a);
+  }
+  const PaperContact& get() const { return sum_; }
+
+ private:
+  Vec2 a_, b_;
+  PaperContact sum_;
+};
+
+// The point of edge e of A on the line of edge f of B.
+Vec2 crossing(const Triangle& a, int e, const Triangle& b, int f) {
+  const Vec2 u = edge_of(a, e), w = edge_of(b, f), d = b.corner[idx(f)] - a.corner[idx(e)];
+  return a.corner[idx(e)] + (cross(d, w) / cross(u, w)) * u;
+}
+
+// The corner of two edges of a triangle.
+int common_corner(int e, int f) { return TriangleSigns::next(e) == f ? f : e; }
+
+// Area of S1, S2 and a corner of a triangle, or what it leaves of the triangle, if that is less.
+double cut_area(const Triangle& t, int corner, const Vec2& s1, const Vec2& s2) {
+  const double cut = 0.5 * std::abs(doubled_area(s1, s2, t.corner[idx(corner)]));
+  return std::min(cut, area_of(t) - cut);
+}
+
+// A force of type i for every edge of B that crosses two edges of A: A is pushed out of B.
+template <class Crosses>
+void push_out(const Triangle& a, const Triangle& b, const Crosses& crosses, double modulus, double sign, Sum& sum) {
+  for (int f = 0; f < 3; ++f) {
+    int edges[3], count = 0;
+    for (int e = 0; e < 3; ++e)
+      if (crosses(e, f)) edges[count++] = e;
+    if (count != 2) continue;
+    const Vec2 s1 = crossing(a, edges[0], b, f), s2 = crossing(a, edges[1], b, f);
+    const double force = modulus * cut_area(a, common_corner(edges[0], edges[1]), s1, s2);
+    sum.add((sign * force) * outward(edge_of(b, f)), 0.5 * (s1 + s2));
+  }
+}
+
+// The two edges of A, and of B, that cross; none if they are not as in types i and ii.
+struct CrossedEdges {
+  std::array<int, 2> a, b;
+};
+std::optional<CrossedEdges> crossed_edges(const TriangleSigns& signs) {
+  CrossedEdges found{};
+  int count = 0;
+  for (int e = 0; e < 3; ++e)
+    for (int f = 0; f < 3; ++f)
+      if (signs.cross(e, f)) {
+        if (count == 2) return std::nullopt;
+        found.a[idx(count)] = e, found.b[idx(count)] = f, ++count;
+      }
+  return count == 2 ? std::optional(found) : std::nullopt;
+}
+
+}  // namespace
+
+PaperContact paper_contact(const Triangle& a, const Triangle& b, double modulus) {
+  const TriangleSigns signs = triangle_signs(a, b);
+  Sum sum(a, b);
+  const auto a_on_b = [&](int e, int f) { return signs.cross(e, f); };
+  const auto b_on_a = [&](int f, int e) { return signs.cross(e, f); };
+  switch (signs.type) {
+    case OverlapType::separate:
+    case OverlapType::touch:
+      break;
+    case OverlapType::i:
+      // Both crossings on one edge of B, which cuts A, or the other way round.
+      push_out(a, b, a_on_b, modulus, 1, sum);
+      push_out(b, a, b_on_a, modulus, -1, sum);
+      break;
+    case OverlapType::ii: {
+      const auto edges = crossed_edges(signs).value();
+      const Vec2 s1 = crossing(a, edges.a[0], b, edges.b[0]), s2 = crossing(a, edges.a[1], b, edges.b[1]);
+      const int corner_a = common_corner(edges.a[0], edges.a[1]), corner_b = common_corner(edges.b[0], edges.b[1]);
+      const double force = modulus * (cut_area(a, corner_a, s1, s2) + cut_area(b, corner_b, s1, s2));
+      // Away from the corner of A that is inside B.
+      const Vec2 chord = s2 - s1;
+      const double length = norm(chord);
+      Vec2 normal = outward(chord);
+      if (dot(normal, a.corner[idx(corner_a)] - s1) > 0) normal = -1.0 * normal;
+      if (length > 0) sum.add(force * normal, 0.5 * (s1 + s2));
+      break;
+    }
+    case OverlapType::iii: {
+      const TriangleOverlap o = triangle_overlap(a, b);
+      const double force = 0.5 * modulus * o.area;
+      for (int k = 0; k < 2; ++k) {  // S1S2 on an edge of A, S1S4 on one of B
+        const OverlapChord& chord = o.chord_store[idx(k)];
+        const Vec2 middle = o.origin + chord.start + 0.5 * chord.along;
+        Vec2 normal = outward(chord.along);
+        // Out of A on its own edge points into B: A is pushed back from there, and away from B.
+        const Vec2 inside = k == 0 ? centroid_of(a) - middle : middle - centroid_of(b);
+        if (dot(normal, inside) < 0) normal = -1.0 * normal;
+        sum.add(force * normal, middle);
+      }
+      break;
+    }
+    case OverlapType::iv:
+    case OverlapType::v:
+      push_out(a, b, a_on_b, modulus, 1, sum);
+      if (signs.type == OverlapType::iv) push_out(b, a, b_on_a, modulus, -1, sum);
+      break;
+    case OverlapType::degenerate: {
+      const TriangleOverlap o = triangle_overlap(a, b);
+      const Vec2& g = o.gradient_a.translation;
+      const double chord = norm(g);
+      if (!(chord > 0)) break;
+      const double pressure = modulus * o.area / chord;
+      PaperContact contact;
+      contact.on_a = -pressure * g;
+      contact.moment_a = -pressure * o.gradient_a.rotation, contact.moment_b = -pressure * o.gradient_b.rotation;
+      return contact;
+    }
+  }
+  return sum.get();
+}
+
+}  // namespace isostat

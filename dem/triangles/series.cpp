@@ -1,0 +1,60 @@
+#include "dem/triangles/series.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dem/triangles/certificate.hpp"
+#include "dem/triangles/energy.hpp"
+
+namespace isostat {
+
+std::vector<SeriesColumn> series_columns(const State<TriangleGrains>& s, bool with_energies) {
+  const TrianglePacking& p = s.packing;
+  const TriangleEnergies e = energies(s);
+  std::vector<SeriesColumn> columns{{"t", s.time}};
+  const auto add = [&columns](std::initializer_list<SeriesColumn> more) {
+    columns.insert(columns.end(), more.begin(), more.end());
+  };
+  if (p.cell) {
+    const StressTensor stress = measured_stress(s);
+    add({{"Phi", solid_fraction(p, p.cell)},
+         {"L1", p.cell->length[0]},
+         {"L2", p.cell->length[1]},
+         {"sigma11", stress.xx},
+         {"sigma22", stress.yy},
+         {"strain_rate1", s.cell_motion.strain_rate[0]},
+         {"strain_rate2", s.cell_motion.strain_rate[1]}});
+  }
+  const auto free = static_cast<double>(count_free(p));
+  add({{"kinetic_energy", e.kinetic},
+       {"z", 2 * static_cast<double>(p.overlaps.size()) / free},
+       {"max_force", s.certificate.max_force},
+       {"max_moment", s.certificate.max_moment}});
+  if (p.cell) add({{"pressure_error", s.certificate.pressure_error}});
+  add({{"kinetic_energy_per_grain", s.certificate.kinetic_energy_per_grain}});
+  if (s.scene.container.shape == ContainerShape::hopper)
+    add({{"grains", free},
+         {"grains_left", static_cast<double>(s.surroundings.grains_left)},
+         {"mass_left", s.surroundings.mass_left}});
+  double tension = 0, compression = 0, bending = 0;
+  for (const Link<2>& link : p.links) {
+    tension = std::max(tension, -link.normal_force), compression = std::max(compression, link.normal_force);
+    bending = std::max(bending, std::abs(link.moment));
+  }
+  add({{"beam_tension", tension}, {"beam_compression", compression}, {"beam_moment", bending}});
+  if (s.law.failure != BeamFailure::none) {
+    const auto broken = std::count_if(p.events.begin(), p.events.end(), [](const BeamEvent& b) { return b.broken; });
+    add({{"beams_broken", static_cast<double>(broken)},
+         {"beams_yielded", static_cast<double>(p.events.size()) - static_cast<double>(broken)}});
+  }
+  if (with_energies)
+    add({{"E_kinetic", e.kinetic},
+         {"E_beams", e.beams},
+         {"E_overlaps", e.overlaps},
+         {"E_springs", e.springs},
+         {"E_weight", e.weight},
+         {"E_total", e.total()}});
+  return columns;
+}
+
+}  // namespace isostat
