@@ -64,6 +64,8 @@ std::string physical_hash(const State<Disks>& state) {
     digest.add(static_cast<std::int64_t>(l.kind));
     for (const double x : {l.gap, l.normal_force, l.tangential_force, l.moment}) digest.add(x);
   }
+  if (!state.packing.part.empty())
+    for (const std::size_t k : order) digest.add(static_cast<std::int64_t>(state.packing.part[k]));
   add_surroundings(digest, state.scene.gravity, state.surroundings);
   return digest.hex();
 }

@@ -61,6 +61,10 @@ std::optional<StateFault> packing_fault(const Packing<D>& packing) {
   const std::string group = "particles/grains";
   if (auto f = bodies_fault(packing.bodies, group)) return f;
   if (auto f = cell_fault(packing.cell, group)) return f;
+  if (!packing.part.empty() && packing.part.size() != packing.bodies.size())
+    return StateFault{group + "/part", "neither one element a grain nor none"};
+  for (const GrainPart part : packing.part)
+    if (part > GrainPart::lid) return StateFault{group + "/part", "a part that is neither free, wall nor lid"};
   return check_links(packing);
 }
 template std::optional<StateFault> bodies_fault(const Bodies<2>&, const std::string&);

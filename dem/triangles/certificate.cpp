@@ -136,10 +136,6 @@ std::size_t loaded_contacts(const State<TriangleGrains>& s) {
                     [&s](const Overlap& o) { return o.normal_force > kLoadTolerance * s.certificate.force_scale; }));
 }
 
-std::size_t count_free(const TrianglePacking& p) {
-  return static_cast<std::size_t>(std::count(p.grains.part.begin(), p.grains.part.end(), GrainPart::free));
-}
-
 double solid_fraction(const TrianglePacking& p, const std::optional<PeriodicCell<2>>& cell) {
   if (!cell) return std::numeric_limits<double>::quiet_NaN();
   double area = 0;

@@ -25,9 +25,8 @@ Certificate evaluate_certificate(const State<TriangleGrains>& state);
 // Overlaps that carry a force.
 std::size_t loaded_contacts(const State<TriangleGrains>& state);
 
-// Of the grains as the stage runner asks (dem/run/): free ones, area over that of the cell, connected ones, the set of
+// Of the grains as the stage runner asks (dem/run/): area over that of the cell, connected ones, the set of
 // overlapping pairs as a number.
-std::size_t count_free(const TrianglePacking& packing);
 double solid_fraction(const TrianglePacking& packing, const std::optional<PeriodicCell<2>>& cell);
 std::size_t count_clusters(const TrianglePacking& packing);
 std::uint64_t contact_set(const TrianglePacking& packing);
