@@ -4,7 +4,7 @@
 #include <map>
 #include <tuple>
 
-#include "dem/triangles/overlap_at_rest.hpp"
+#include "dem/triangles/at_rest.hpp"
 #include "dem/triangles/touching_triangles.hpp"
 #include "geometry/base/index.hpp"
 #include "geometry/triangle_overlap.hpp"
@@ -19,6 +19,7 @@ std::vector<AreaLink> area_links(const TrianglePacking& p, const std::vector<Tri
   const ConnectedOverlaps found = connected_overlaps(p, corners);
   std::map<Grains3, std::vector<const Overlap*>> records;
   for (const Overlap& o : p.overlaps) records[{o.grain_i, o.grain_j, o.shift}].push_back(&o);
+  const std::vector<double> inverse = inverse_lengths(p, law);
   std::vector<AreaLink> links;
   for (std::size_t first = 0, last; first < found.overlap.size(); first = last) {
     const ConnectedOverlap& head = found.overlap[first];
@@ -44,7 +45,7 @@ std::vector<AreaLink> area_links(const TrianglePacking& p, const std::vector<Tri
     }
     for (std::size_t k = links.size() - (each ? last - first : 1); k < links.size(); ++k) {
       AreaLink& link = links[k];
-      link.stiffness = law.modulus * inverse_overlap_length(p, law, link.grain_i, link.grain_j);
+      link.stiffness = overlap_stiffness(law, inverse[idx(link.grain_i)], inverse[idx(link.grain_j)]);
       link.pressure = link.stiffness * link.area;
       link.tangential_stiffness = law.tangential_stiffness;
     }
@@ -54,8 +55,7 @@ std::vector<AreaLink> area_links(const TrianglePacking& p, const std::vector<Tri
 
 }  // namespace
 
-OwnedNetwork triangle_network(const TrianglePacking& p, const std::vector<Triangle>& corners,
-                                 const TriangleLaw& law) {
+OwnedNetwork triangle_network(const TrianglePacking& p, const std::vector<Triangle>& corners, const TriangleLaw& law) {
   OwnedNetwork n;
   n.packing.cell = p.cell;
   const std::vector<std::int32_t> grain = grain_of(p.grains);

@@ -18,27 +18,44 @@ namespace isostat {
 
 const std::vector<Section>& sections() {
   static const std::vector<Section> table{
-      {.name = "counts", .takes = {.space = true}, .compute = counts_section, .tables = counts_tables},
-      {.name = "equilibrium", .takes = {.law = true}, .compute = equilibrium_section},
+      {.name = "counts",
+       .takes = {.space = true, .triangles = OfTriangles::any},
+       .compute = counts_section,
+       .tables = counts_tables},
+      {.name = "equilibrium", .takes = {.triangles = OfTriangles::any, .law = true}, .compute = equilibrium_section},
       {.name = "stress",
-       .takes = {.cell_for = "an isolated packing has no area", .forces = Forces::needed},
+       .takes = {.triangles = OfTriangles::any,
+                 .cell_for = "an isolated packing has no area",
+                 .forces = Forces::needed},
        .compute = stress_section},
       {.name = "forces", .takes = {.forces = Forces::needed}, .compute = forces_section, .tables = forces_tables},
       {.name = "percolation",
        .takes = {.cell_for = "a network percolates to its own image", .forces = Forces::needed},
        .compute = percolation_section},
-      {.name = "rigidity", .takes = {}, .compute = rigidity_section},
-      {.name = "clusters", .takes = {}, .compute = clusters_section, .tables = clusters_tables},
-      {.name = "stiffness", .takes = {.stiffness = true}, .compute = stiffness_section},
+      {.name = "rigidity", .takes = {.triangles = OfTriangles::with_energy}, .compute = rigidity_section},
+      {.name = "clusters",
+       .takes = {.triangles = OfTriangles::with_energy},
+       .compute = clusters_section,
+       .tables = clusters_tables},
+      {.name = "stiffness",
+       .takes = {.triangles = OfTriangles::with_energy, .stiffness = true},
+       .compute = stiffness_section},
       {.name = "moduli",
-       .takes = {.cell_for = "elastic moduli are those of its strains", .stiffness = true},
+       .takes = {.triangles = OfTriangles::with_energy,
+                 .cell_for = "elastic moduli are those of its strains",
+                 .stiffness = true,
+                 .strains = true},
        .compute = moduli_section},
       {.name = "modes",
-       .takes = {.forces = Forces::with_prestress, .stiffness = true},
+       .takes = {.triangles = OfTriangles::with_energy, .forces = Forces::with_prestress, .stiffness = true},
        .compute = modes_section,
        .tables = modes_tables,
        .only_when_named = true},
-      {.name = "bases", .takes = {}, .compute = bases_section, .tables = bases_tables, .only_when_named = true},
+      {.name = "bases",
+       .takes = {.triangles = OfTriangles::with_energy},
+       .compute = bases_section,
+       .tables = bases_tables,
+       .only_when_named = true},
       {.name = "pores", .takes = {}, .compute = pores_section},
       {.name = "scattering",
        .takes = {.cell_for = "I(k) lives on its reciprocal lattice", .grains = true},
@@ -80,6 +97,7 @@ void set_undefined_to_null(nlohmann::ordered_json& value) {
 
 // Lengths, masses and forces of the report are in these units; `si` appears when the scene maps the run to SI.
 nlohmann::ordered_json units_of(const AnalysisInput& input) {
+  if (input.triangles) return {{"system", "cgs"}, {"length", "cm"}, {"mass", "g"}, {"force", "dyn"}, {"time", "s"}};
   if (!input.has_law()) return {{"system", "of the input file"}};
   const bool cohesive = input.state.law.attraction > 0;
   nlohmann::ordered_json units{{"system", "reduced"},
@@ -92,6 +110,25 @@ nlohmann::ordered_json units_of(const AnalysisInput& input) {
   return units;
 }
 
+// Why a section does not take grains of triangles; none: it does.
+std::optional<std::string> refusal_of_triangles(const Takes& takes, const AnalysisInput& input,
+                                                const AnalysisOptions& options) {
+  const TriangleLaw& law = input.triangles->law;
+  if (takes.triangles == OfTriangles::none) return "is defined for disks; this packing is of grains of triangles";
+  if (takes.triangles == OfTriangles::any) return std::nullopt;
+  if (law.contact == ContactLaw::paper)
+    return "needs overlaps that have an energy: the law `paper` has none, use `overlap-energy`";
+  const NetworkLaw rows = input.network_law(options);
+  if (rows == NetworkLaw::rolling) return "overlaps have no rolling row; use --law frictionless or --law friction";
+  if (takes.stiffness && rows == NetworkLaw::friction && !(law.tangential_stiffness > 0))
+    return "the law of the state has no tangential stiffness; use --law frictionless";
+  if (takes.forces == Forces::with_prestress && options.prestress && rows == NetworkLaw::friction)
+    return "--prestress knows no geometric term of friction between triangles; use --law frictionless";
+  if ((takes.strains || options.cell_free) && input.network().any_held())
+    return "strains the cell, and this one has walls in it that hold";
+  return std::nullopt;
+}
+
 // Why a section does not take the input; none: it does.
 std::optional<std::string> refusal(const Takes& takes, const AnalysisInput& input, const AnalysisOptions& options) {
   if (input.packing_3d && !takes.space) return "is defined for packings in the plane; this one is in 3D";
@@ -102,6 +139,7 @@ std::optional<std::string> refusal(const Takes& takes, const AnalysisInput& inpu
   if (!forces && takes.forces == Forces::needed) return "needs forces: this input has none";
   if (!forces && takes.forces == Forces::with_prestress && options.prestress)
     return "--prestress needs the forces of the links";
+  if (input.triangles) return refusal_of_triangles(takes, input, options);
   if (takes.stiffness && input.has_law()) {  // a state's law fills only the axes it has; a network's law has all
     const NetworkLaw rows = input.network_law(options);
     if (rows != NetworkLaw::frictionless && !(input.state.law.tangential_stiffness > 0))

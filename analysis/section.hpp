@@ -18,14 +18,20 @@ struct Table {
 
 enum class Forces { not_needed, with_prestress, needed };
 
+// Grains of triangles: not at all, any, or those whose overlaps have an energy (not the law `paper`), of which G and K
+// are made.
+enum class OfTriangles { none, any, with_energy };
+
 // Which inputs a section takes. `analyze` refuses the others, so that no section has to.
 struct Takes {
-  bool space = false;              // packings in space, too; else only those in the plane
+  bool space = false;  // packings in space, too; else only those in the plane
+  OfTriangles triangles = OfTriangles::none;
   std::string_view cell_for = {};  // why it needs a periodic cell; empty: it takes isolated packings, too
   bool law = false;                // needs an interaction law: a state of the solver
   Forces forces = Forces::not_needed;
   bool grains = false;     // needs at least one grain
   bool stiffness = false;  // needs a stiffness for every row of G that --law asks for
+  bool strains = false;    // strains the cell: nothing in it may be held
 };
 
 // A section: name, and a function from an input that it takes to its JSON value. What cannot be known before it is

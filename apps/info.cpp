@@ -11,6 +11,7 @@
 #include "dem/files/state_file.hpp"
 #include "dem/files/state_seal.hpp"
 #include "dem/scene/keys.hpp"
+#include "dem/scene/text.hpp"
 
 namespace isostat {
 namespace {
@@ -39,12 +40,12 @@ Json scene_json(Scene scene) {
   Json json = Json::object();
   json["stage"] = Json::array();
   for (std::size_t k = 0; k < scene.stages.size(); ++k) json["stage"].push_back(Json::object());
-  for (const SceneKey& key : scene_keys()) {
-    if (!applies(key, scene)) continue;
+  for (const SceneKey& key : scene_keys(scene.system)) {
     const std::string table = table_of(key), leaf(leaf_of(key));
-    if (belongs_to_stage(key))
-      for (std::size_t k = 0; k < scene.stages.size(); ++k) json["stage"][k][leaf] = key_value(key, scene, k);
-    else
+    if (belongs_to_stage(key)) {
+      for (std::size_t k = 0; k < scene.stages.size(); ++k)
+        if (echoed(key, scene, k)) json["stage"][k][leaf] = key_value(key, scene, k);
+    } else if (echoed(key, scene, 0))
       (table.empty() ? json : json[table])[leaf] = key_value(key, scene, 0);
   }
   return json;

@@ -3,6 +3,8 @@
 #include "dem/disks/check.hpp"
 #include "dem/disks/keys.hpp"
 #include "dem/disks/sample.hpp"
+#include "dem/triangles/check.hpp"
+#include "dem/triangles/keys.hpp"
 #include "dem/triangles/sample.hpp"
 
 namespace isostat {
@@ -17,8 +19,20 @@ AnyState initial_state(const Scene& scene, std::uint64_t seed) {
   return initial_disks(scene, seed);
 }
 
-std::vector<SceneKey> system_keys() { return disk_keys(); }
+std::vector<SceneKey> system_keys() {
+  std::vector<SceneKey> rows = disk_keys();
+  for (SceneKey& row : triangle_keys()) rows.push_back(std::move(row));
+  return rows;
+}
 
-std::vector<SceneConflict> system_conflicts(const Scene& scene) { return disk_conflicts(scene); }
+std::vector<SceneConflict> system_conflicts(const Scene& scene) {
+  switch (scene.system) {
+    case SceneSystem::triangles:
+      return triangle_conflicts(scene);
+    case SceneSystem::disks:
+      break;
+  }
+  return disk_conflicts(scene);
+}
 
 }  // namespace isostat

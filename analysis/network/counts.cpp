@@ -6,6 +6,7 @@
 
 #include "analysis/network/coordination.hpp"
 #include "analysis/network/sections.hpp"
+#include "analysis/network/triangle_sections.hpp"
 #include "dem/state/solid_fraction.hpp"
 
 namespace isostat {
@@ -75,11 +76,13 @@ Table grains_of(const Packing<D>& packing, const ForceReading& reading) {
 }  // namespace
 
 nlohmann::ordered_json counts_section(const AnalysisInput& input, const AnalysisOptions&) {
+  if (input.triangles) return triangle_counts(input);
   const ForceReading reading = read_forces(input);
   return input.packing_3d ? counts_of(*input.packing_3d, reading) : counts_of(input.packing(), reading);
 }
 
 std::vector<Table> counts_tables(const AnalysisInput& input, const AnalysisOptions&) {
+  if (input.triangles) return triangle_counts_tables(input);
   const ForceReading reading = read_forces(input);
   return {input.packing_3d ? grains_of(*input.packing_3d, reading) : grains_of(input.packing(), reading)};
 }

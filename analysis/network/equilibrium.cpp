@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/network/sections.hpp"
+#include "analysis/network/triangle_sections.hpp"
 #include "dem/disks/at_rest.hpp"
 #include "dem/disks/certificate.hpp"
 #include "dem/state/link_ends.hpp"
@@ -29,6 +30,7 @@ double law_residual(const State<Disks>& state, double scale) {
 }  // namespace
 
 nlohmann::ordered_json equilibrium_section(const AnalysisInput& input, const AnalysisOptions&) {
+  if (input.triangles) return triangle_equilibrium(*input.triangles);
   const State<Disks>& state = input.state;
   const Certificate c = evaluate_certificate(state);
   const auto contacts = std::count_if(state.packing.links.begin(), state.packing.links.end(),

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dem/disks/certificate.hpp"
+#include "dem/triangles/certificate.hpp"
 
 namespace isostat {
 
@@ -38,6 +39,14 @@ ForceReading read_foreign(const Packing<D>& packing) {
 
 ForceReading read_forces(const AnalysisInput& input) {
   if (input.packing_3d) return read_foreign(*input.packing_3d);
+  if (input.triangles) {  // forces follow from the positions
+    ForceReading reading;
+    reading.known = reading.law_known = true, reading.cohesive = false;
+    reading.scale =
+        force_scale(input.triangles->packing, input.triangles->imposed_stress, input.triangles->scene.gravity);
+    reading.threshold = kLoadTolerance * reading.scale;
+    return reading;
+  }
   if (!input.has_law()) return read_foreign(input.packing());
   ForceReading reading;
   reading.known = reading.law_known = true;

@@ -6,6 +6,7 @@
 
 #include "analysis/network/coordination.hpp"
 #include "analysis/network/sections.hpp"
+#include "analysis/network/triangle_sections.hpp"
 #include "dem/state/balance.hpp"
 
 namespace isostat {
@@ -24,6 +25,7 @@ double rumpf_force(const Packing<2>& packing, double pressure, double z) {
 }  // namespace
 
 nlohmann::ordered_json stress_section(const AnalysisInput& input, const AnalysisOptions&) {
+  if (input.triangles) return triangle_stress(*input.triangles);
   const Packing<2>& packing = input.packing();
   const ForceReading reading = read_forces(input);
   const StressTensor s = measured_stress(packing);

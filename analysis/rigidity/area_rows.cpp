@@ -17,8 +17,13 @@ std::vector<TriangleLoad<double>> area_loads(const LinkNetwork& n, const AreaLin
     area.twice = {-2 * o.gradient_b.translation[0], -2 * o.gradient_b.translation[1], -2 * o.gradient_a.rotation,
                   -2 * o.gradient_b.rotation};
     area.twice_area = 2 * o.area;
-    for (const OverlapSide& side : o.sides())
-      for (int k = 0; k < 2; ++k) area.vertices[idx(k)] += o.origin[k] + side.start[k];
+    double length = 0;  // of the boundary, whose mean is the point that the solver takes
+    Vec2 mean{};
+    for (const OverlapSide& side : o.sides()) {
+      const double part = norm(side.along);
+      length += part, mean += part * (side.start + 0.5 * side.along);
+    }
+    for (int k = 0; k < 2; ++k) area.point[idx(k)] = o.origin[k] + mean[k] / length;
     twice_area += area.twice_area, force += Vec2{{area.twice.fx, area.twice.fy}};
     return area;
   };
@@ -28,7 +33,7 @@ std::vector<TriangleLoad<double>> area_loads(const LinkNetwork& n, const AreaLin
     return PlanePoint<double>{c[0], c[1]};
   };
   auto loads = area_loads<double>(link, tangential, measure, reference);
-  const double scale = tangential ? 1 / (60 * twice_area * norm(force)) : 0.5;
+  const double scale = tangential ? 1 / (twice_area * norm(force)) : 0.5;
   for (auto& l : loads)
     for (double& v : l.at) v *= scale;
   return loads;

@@ -21,6 +21,14 @@ auto quotient(const F& a, const F& b) -> decltype(b.inverse()) {
   return a * b.inverse();
 }
 
+template <class Real>
+Real whole(std::size_t n) {
+  if constexpr (requires { Real::from_integer(1); })
+    return Real::from_integer(static_cast<std::int64_t>(n));
+  else
+    return Real{static_cast<double>(n)};
+}
+
 // On the pair: force on j (opposite on i) and moments about the reference points of both.
 template <class Real>
 struct PairLoad {
@@ -29,9 +37,9 @@ struct PairLoad {
 
 template <class Real>
 struct PairArea {
-  PairLoad<Real> twice;       // of unit pressure, times two
+  PairLoad<Real> twice;  // of unit pressure, times two
   Real twice_area{};
-  PlanePoint<Real> vertices;  // sum of the corners of the overlap
+  PlanePoint<Real> point;  // where friction acts
 };
 
 // a, b: corners; at_a, at_b: the points that moments are about, in any case the centroids.
@@ -72,8 +80,10 @@ PairArea<Real> pair_area(const OverlapBoundary& boundary, const std::array<Plane
     Real& moment = of_a ? out.twice.moment_i : out.twice.moment_j;
     moment = moment + (arm_p[0] + arm_q[0]) * side[0] + (arm_p[1] + arm_q[1]) * side[1];
     out.twice_area = out.twice_area + cross(minus(p, from), minus(q, from));
-    out.vertices = {out.vertices[0] + p[0], out.vertices[1] + p[1]};
+    out.point = {out.point[0] + p[0], out.point[1] + p[1]};
   }
+  // The solver's point is the mean of the boundary, which has roots; the mean of the corners lies beside it.
+  for (Real& x : out.point) x = quotient(x, whole<Real>(count));
   // On B (-y, x) of its sides; they close the polygon with those of A.
   out.twice.fx = on_a[1] + on_a[1], out.twice.fy = -(on_a[0] + on_a[0]);
   return out;
@@ -83,13 +93,14 @@ PairArea<Real> pair_area(const OverlapBoundary& boundary, const std::array<Plane
 template <class Real>
 struct TriangleLoad {
   std::int32_t body = 0;
-  ImageShift<2> shift{};      // of the body
+  ImageShift<2> shift{};     // of the body
   std::array<Real, 3> at{};  // force and moment about the reference point
 };
 
 // Loads of a row: of a unit pressure times two (normal), or of a friction force along z x the total force of the
-// pressure (tangential), on each pair in proportion to its area and at the mean corner of its overlap, times a positive
-// factor. measure: from an AreaPair to its PairArea; reference: from a body and its image to the point of its moments.
+// pressure (tangential) at the mean point of the overlap, shared by the pairs in proportion to their areas, times a
+// positive factor (dem/triangles/overlap_search.cpp). measure: from an AreaPair to its PairArea; reference: from a body
+// and its image to the point of its moments.
 template <class Real, class Measure, class Reference>
 std::vector<TriangleLoad<Real>> area_loads(const AreaLink& link, bool tangential, Measure&& measure,
                                            Reference&& reference) {
@@ -112,25 +123,28 @@ std::vector<TriangleLoad<Real>> area_loads(const AreaLink& link, bool tangential
     add(pair.i, {}, {-load.fx, -load.fy, load.moment_i});
     add(pair.j, pair.shift, {load.fx, load.fy, load.moment_j});
   }
-  for (std::size_t k = 0; tangential && k < pairs.size(); ++k) {
+  if (!tangential) return loads;
+  PlanePoint<Real> point{};
+  Real area{};
+  for (const PairArea<Real>& p : pairs) {
+    area = area + p.twice_area;
+    point = {point[0] + p.twice_area * p.point[0], point[1] + p.twice_area * p.point[1]};
+  }
+  for (Real& x : point) x = quotient(x, area);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
     const AreaPair& pair = link.pairs[k];
-    // Times the number of corners of the overlap, common denominators of 3 to 6 corners being 60.
-    const Real share = pairs[k].twice_area * Real(idx(60 / pair.boundary.count));
-    const auto count = idx(pair.boundary.count);
-    const Real tx = -(fy * share), ty = fx * share;
-    const auto moment = [&](const PlanePoint<Real>& about) {  // about x t, times the number of corners
-      const Real n = Real(count);
-      return (pairs[k].vertices[0] - n * about[0]) * ty - (pairs[k].vertices[1] - n * about[1]) * tx;
+    const Real tx = -(fy * pairs[k].twice_area), ty = fx * pairs[k].twice_area;
+    const auto moment = [&](const PlanePoint<Real>& about) {
+      return (point[0] - about[0]) * ty - (point[1] - about[1]) * tx;
     };
-    const Real n = Real(count);
-    add(pair.i, {}, {-(n * tx), -(n * ty), -moment(reference(pair.i, ImageShift<2>{}))});
-    add(pair.j, pair.shift, {n * tx, n * ty, moment(reference(pair.j, pair.shift))});
+    add(pair.i, {}, {-tx, -ty, -moment(reference(pair.i, ImageShift<2>{}))});
+    add(pair.j, pair.shift, {tx, ty, moment(reference(pair.j, pair.shift))});
   }
   return loads;
 }
 
-// In doubles, faithful (geometry/triangle_overlap.hpp): of unit pressure [cm] and unit friction force, moments about the
-// centroids.
+// In doubles, faithful (geometry/triangle_overlap.hpp): of unit pressure [cm] and unit friction force, moments about
+// the centroids.
 std::vector<TriangleLoad<double>> area_loads(const LinkNetwork& network, const AreaLink& link, bool tangential);
 
 }  // namespace isostat

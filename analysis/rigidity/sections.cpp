@@ -1,6 +1,7 @@
 #include "analysis/rigidity/sections.hpp"
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "analysis/network/coordination.hpp"
 #include "analysis/rigidity/clusters.hpp"
@@ -21,6 +22,7 @@ constexpr int kNearNullValues = 6;
 
 // Null modes that vanish when the rattlers and their links are taken away (rattlers of a cohesionless state may touch).
 std::int64_t rattler_modes(const AnalysisInput& input, NetworkLaw law, bool cell_free, const ExactRank& whole) {
+  if (input.triangles) return whole.rattler_modes;
   const Packing<2>& packing = input.packing();
   const Coordination c = coordination(packing, read_forces(input));
   bool linked = false;
@@ -33,17 +35,17 @@ std::int64_t rattler_modes(const AnalysisInput& input, NetworkLaw law, bool cell
   for (std::size_t l = 0; l < packing.links.size(); ++l)
     if (stays(packing.links[l].i) && stays(packing.links[l].j)) links.push_back(static_cast<std::int32_t>(l));
   if (grains.empty()) return whole.floppy - whole.trivial;
-  const Packing<2> backbone = part_of(packing, grains, links);
-  return whole.floppy - exact_rank(backbone, law, cell_free).floppy;
+  const OwnedNetwork backbone = part_of(packing, grains, links);
+  return whole.floppy - exact_rank(backbone.view(), law, cell_free).floppy;
 }
 
-Json near_null(const Packing<2>& packing, NetworkLaw law, const AnalysisOptions& options, const ExactRank& rank) {
+Json near_null(const LinkNetwork& network, NetworkLaw law, const AnalysisOptions& options, const ExactRank& rank) {
   if (rank.dofs > kNearNullDofs && !options.near_null)
     return Json{
         {"values", nullptr},
         {"reason", "above " + std::to_string(kNearNullDofs) + " degrees of freedom they are left to --near-null"}};
   try {
-    return Json{{"values", smallest_singular_values(packing, law, options.cell_free, kNearNullValues)}};
+    return Json{{"values", smallest_singular_values(network, law, options.cell_free, kNearNullValues)}};
   } catch (const FactorisationFailed& e) {
     return Json{{"values", nullptr}, {"reason", std::string("double precision does not resolve them: ") + e.what()}};
   }
@@ -54,12 +56,13 @@ Json near_null(const Packing<2>& packing, NetworkLaw law, const AnalysisOptions&
 Json rigidity_section(const AnalysisInput& input, const AnalysisOptions& options) {
   const Packing<2>& packing = input.packing();
   const NetworkLaw law = input.network_law(options);
-  ExactRank r = exact_rank(packing, law, options.cell_free);
+  const LinkNetwork network = input.network();
+  ExactRank r = exact_rank(network, law, options.cell_free);
   r.rattler_modes = rattler_modes(input, law, options.cell_free, r);
   r.mechanisms = r.floppy - r.trivial - r.rattler_modes;
 
   Json gears = Json::array();
-  for (const auto& component : gear_components(packing, law)) {
+  for (const auto& component : gear_components(network, law)) {
     Json ids = Json::array();
     for (std::size_t k = 0; k < component.size() && k < 20; ++k)
       ids.push_back(packing.bodies.id[static_cast<std::size_t>(component[k])]);
@@ -91,12 +94,11 @@ Json rigidity_section(const AnalysisInput& input, const AnalysisOptions& options
                 {"error_chance", 1e-12},
                 {"rigid_bodies", r.bodies},
                 {"gear_components", gears},
-                {"near_null_singular_values", near_null(packing, law, options, r)}}}};
+                {"near_null_singular_values", near_null(network, law, options, r)}}}};
 }
 
 Json clusters_section(const AnalysisInput& input, const AnalysisOptions& options) {
-  const Packing<2>& packing = input.packing();
-  const RigidClusters found = rigid_clusters(packing, input.network_law(options), options.cell_free);
+  const RigidClusters found = rigid_clusters(input.network(), input.network_law(options), options.cell_free);
   Json sizes = Json::array(), list = Json::array();
   std::int64_t hyperstatic = 0, spanning = 0;
   for (const RigidCluster& c : found.clusters) {
@@ -107,7 +109,17 @@ Json clusters_section(const AnalysisInput& input, const AnalysisOptions& options
         {{"grains", c.grains}, {"links", c.links}, {"H", c.hyperstatic}, {"spans", {c.spans[0], c.spans[1]}}});
   }
   std::int64_t alone = 0;
-  for (std::int32_t c : found.cluster_of_grain) alone += c < 0;
+  if (input.triangles) {
+    std::set<std::int32_t> members, all;
+    const OwnedNetwork& n = input.triangle_links;
+    for (std::size_t b = 0; b < idx(n.free); ++b) {
+      all.insert(n.grain[b]);
+      if (found.cluster_of_grain[b] >= 0) members.insert(n.grain[b]);
+    }
+    alone = static_cast<std::int64_t>(all.size() - members.size());
+  } else {
+    for (std::int32_t c : found.cluster_of_grain) alone += c < 0;
+  }
   return Json{{"sizes", sizes},
               {"hyperstatic", hyperstatic},
               {"largest", found.clusters.empty() ? 0 : found.clusters[0].grains},
@@ -118,7 +130,7 @@ Json clusters_section(const AnalysisInput& input, const AnalysisOptions& options
 
 std::vector<Table> clusters_tables(const AnalysisInput& input, const AnalysisOptions& options) {
   const Packing<2>& packing = input.packing();
-  const RigidClusters found = rigid_clusters(packing, input.network_law(options), options.cell_free);
+  const RigidClusters found = rigid_clusters(input.network(), input.network_law(options), options.cell_free);
   Table grains{"clusters.grains", {"id", "cluster"}, {}};
   for (std::size_t i = 0; i < packing.bodies.size(); ++i)
     grains.rows.push_back({static_cast<double>(packing.bodies.id[i]), static_cast<double>(found.cluster_of_grain[i])});
@@ -130,7 +142,16 @@ std::vector<Table> clusters_tables(const AnalysisInput& input, const AnalysisOpt
                           static_cast<double>(link.shift[0]), static_cast<double>(link.shift[1]),
                           static_cast<double>(found.cluster_of_link[l])});
   }
-  return {grains, links};
+  if (!input.triangles) return {grains, links};
+  Table overlaps{"clusters.overlaps", {"grain_i", "grain_j", "s1", "s2", "cluster"}, {}};
+  const auto& id = input.triangles->packing.grains.id;
+  for (std::size_t a = 0; a < input.triangle_links.areas.size(); ++a) {
+    const AreaLink& area = input.triangle_links.areas[a];
+    overlaps.rows.push_back({static_cast<double>(id[idx(area.grain_i)]), static_cast<double>(id[idx(area.grain_j)]),
+                             static_cast<double>(area.shift[0]), static_cast<double>(area.shift[1]),
+                             static_cast<double>(found.cluster_of_link[packing.links.size() + a])});
+  }
+  return {grains, links, overlaps};
 }
 
 }  // namespace isostat

@@ -22,7 +22,8 @@ using LinkForces = ByRow<Vector>;  // by link; 0 for a row that the link has not
 constexpr double kTouched = 1e-9;  // of the largest component: smaller ones count as rounding in "grains", "links"
 
 struct Question {
-  const Packing<2>& packing;
+  LinkNetwork network;
+  const Packing<2>& packing;  // of it
   NetworkLaw law;
   bool cell_free;
   std::size_t most;
@@ -30,15 +31,19 @@ struct Question {
 };
 
 Question question(const AnalysisInput& input, const AnalysisOptions& options) {
-  const Packing<2>& packing = input.packing();
+  const LinkNetwork network = input.network();
   const NetworkLaw law = input.network_law(options);
-  return {packing, law, options.cell_free, static_cast<std::size_t>(options.most_vectors),
-          rigidity_matrix(packing, law, options.cell_free)};
+  return {network,
+          network.packing,
+          law,
+          options.cell_free,
+          static_cast<std::size_t>(options.most_vectors),
+          rigidity_matrix(network, law, options.cell_free)};
 }
 
 LinkForces by_link(const Question& q, const Vector& of_row) {
   LinkForces forces;
-  for (const RowKind kind : kRowKinds) forces[kind].assign(q.packing.links.size(), 0.0);
+  for (const RowKind kind : kRowKinds) forces[kind].assign(q.network.links(), 0.0);
   for (std::size_t r = 0; r < of_row.size(); ++r)
     forces[q.g.kind[r]][static_cast<std::size_t>(q.g.link_of_row[r])] = of_row[r];
   return forces;
@@ -49,11 +54,17 @@ bool zero_link(const LinkForces& forces, std::size_t link, double below) {
                      [&](RowKind kind) { return std::abs(forces[kind][link]) <= below; });
 }
 
-Vector link_columns(const Packing<2>& packing, std::size_t link) {
-  const Link<2>& l = packing.links[link];
-  return {static_cast<double>(packing.bodies.id[static_cast<std::size_t>(l.i)]),
-          static_cast<double>(packing.bodies.id[static_cast<std::size_t>(l.j)]), static_cast<double>(l.shift[0]),
-          static_cast<double>(l.shift[1])};
+// An overlap stands under its first pair of triangles.
+Vector link_columns(const LinkNetwork& network, std::size_t link) {
+  Vector columns;
+  network.each_bond(link, [&](std::int32_t i, std::int32_t j, const ImageShift<2>& shift) {
+    if (!columns.empty()) return;
+    const auto& id = network.packing.bodies.id;
+    columns = {static_cast<double>(id[static_cast<std::size_t>(i)]),
+               static_cast<double>(id[static_cast<std::size_t>(j)]), static_cast<double>(shift[0]),
+               static_cast<double>(shift[1])};
+  });
+  return columns;
 }
 
 std::array<double, 3> motion_of(const Question& q, const Vector& u, std::size_t grain) {
@@ -63,9 +74,9 @@ std::array<double, 3> motion_of(const Question& q, const Vector& u, std::size_t 
 
 Json floppy_json(const Question& q, std::int64_t of) {
   Json list = Json::array();
-  for (const NullVector& v : floppy_modes(q.packing, q.law, q.cell_free, q.most)) {
+  for (const NullVector& v : floppy_modes(q.network, q.law, q.cell_free, q.most)) {
     std::int64_t grains = 0;
-    for (std::size_t i = 0; i < q.packing.bodies.size(); ++i) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(q.network.free); ++i) {
       const auto m = motion_of(q, v.value, i);
       grains += std::any_of(m.begin(), m.end(), [](double x) { return std::abs(x) > kTouched; });
     }
@@ -76,10 +87,10 @@ Json floppy_json(const Question& q, std::int64_t of) {
 
 Json self_stress_json(const Question& q, std::int64_t of) {
   Json list = Json::array();
-  for (const NullVector& v : self_stress_states(q.packing, q.law, q.cell_free, q.most)) {
+  for (const NullVector& v : self_stress_states(q.network, q.law, q.cell_free, q.most)) {
     const LinkForces forces = by_link(q, v.value);
     std::int64_t links = 0;
-    for (std::size_t l = 0; l < q.packing.links.size(); ++l) links += !zero_link(forces, l, kTouched);
+    for (std::size_t l = 0; l < q.network.links(); ++l) links += !zero_link(forces, l, kTouched);
     list.push_back({{"links", links}, {"residual", v.residual}});
   }
   return {{"given", list.size()}, {"of", of}, {"list", list}};
@@ -87,8 +98,8 @@ Json self_stress_json(const Question& q, std::int64_t of) {
 
 Json split_json(const Question& q, const AnalysisInput& input) {
   if (!read_forces(input).known) return nullptr;
-  const Vector forces = link_forces(q.packing, q.g);
-  const ForceSplit split = split_forces(q.packing, q.law, q.cell_free, forces);
+  const Vector forces = link_forces(q.network, q.g);
+  const ForceSplit split = split_forces(q.network, q.law, q.cell_free, forces);
   const auto length = [](const Vector& v) { return std::sqrt(dot(v, v)); };
   return {{"forces", length(forces)},
           {"balancing", length(split.balancing)},
@@ -101,7 +112,7 @@ Json split_json(const Question& q, const AnalysisInput& input) {
 
 Json bases_section(const AnalysisInput& input, const AnalysisOptions& options) {
   const Question q = question(input, options);
-  const ExactRank rank = exact_rank(q.packing, q.law, q.cell_free);
+  const ExactRank rank = exact_rank(q.network, q.law, q.cell_free);
   Json section{{"law", name_of(q.law)}, {"cell", q.cell_free ? "free" : "fixed"}};
   try {
     section["floppy_modes"] = floppy_json(q, rank.floppy);
@@ -125,9 +136,9 @@ std::vector<Table> bases_tables(const AnalysisInput& input, const AnalysisOption
               {}};
   try {
     double number = 0;
-    for (const NullVector& v : floppy_modes(q.packing, q.law, q.cell_free, q.most)) {
+    for (const NullVector& v : floppy_modes(q.network, q.law, q.cell_free, q.most)) {
       ++number;
-      for (std::size_t i = 0; i < q.packing.bodies.size(); ++i) {
+      for (std::size_t i = 0; i < static_cast<std::size_t>(q.network.free); ++i) {
         const auto m = motion_of(q, v.value, i);
         if (m == std::array<double, 3>{}) continue;
         modes.rows.push_back({number, static_cast<double>(q.packing.bodies.id[i]), m[0], m[1], m[2]});
@@ -137,22 +148,22 @@ std::vector<Table> bases_tables(const AnalysisInput& input, const AnalysisOption
                                 v.value[static_cast<std::size_t>(q.g.layout.strain_column(1))]});
     }
     number = 0;
-    for (const NullVector& v : self_stress_states(q.packing, q.law, q.cell_free, q.most)) {
+    for (const NullVector& v : self_stress_states(q.network, q.law, q.cell_free, q.most)) {
       ++number;
       const LinkForces forces = by_link(q, v.value);
-      for (std::size_t l = 0; l < q.packing.links.size(); ++l) {
+      for (std::size_t l = 0; l < q.network.links(); ++l) {
         if (zero_link(forces, l, 0)) continue;
-        Vector line = link_columns(q.packing, l);
+        Vector line = link_columns(q.network, l);
         line.insert(line.begin(), number);
         for (const RowKind kind : kRowKinds) line.push_back(forces[kind][l]);
         states.rows.push_back(std::move(line));
       }
     }
     if (read_forces(input).known) {
-      const ForceSplit parts = split_forces(q.packing, q.law, q.cell_free, link_forces(q.packing, q.g));
+      const ForceSplit parts = split_forces(q.network, q.law, q.cell_free, link_forces(q.network, q.g));
       const LinkForces balancing = by_link(q, parts.balancing), self_stress = by_link(q, parts.self_stress);
-      for (std::size_t l = 0; l < q.packing.links.size(); ++l) {
-        Vector line = link_columns(q.packing, l);
+      for (std::size_t l = 0; l < q.network.links(); ++l) {
+        Vector line = link_columns(q.network, l);
         for (const LinkForces* forces : {&balancing, &self_stress})
           for (const RowKind kind : kRowKinds) line.push_back((*forces)[kind][l]);
         split.rows.push_back(std::move(line));

@@ -20,7 +20,14 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr int kReportedModes = 20, kTabulatedModes = 100;
 
-Json stiffness_of(const DiskLaw& law) {
+Json stiffness_of(const AnalysisInput& input) {
+  if (input.triangles) {
+    const TriangleLaw& t = input.triangles->law;
+    return {{"modulus", t.modulus},
+            {"overlap_length", t.overlap_length > 0 ? Json(t.overlap_length) : Json(nullptr)},
+            {"tangential", t.tangential_stiffness}};
+  }
+  const DiskLaw law = law_of(input);
   return {{"normal", law.normal_stiffness},
           {"tangential", law.tangential_stiffness},
           {"rolling", law.rolling_stiffness},
@@ -53,19 +60,19 @@ Json described(const Moduli& m) {
 }  // namespace
 
 Json stiffness_section(const AnalysisInput& input, const AnalysisOptions& options) {
-  const Packing<2>& packing = input.packing();
+  const LinkNetwork network = input.network();
   const NetworkLaw network_law = input.network_law(options);
   const DiskLaw law = law_of(input);
-  const ExactRank rank = exact_rank(packing, network_law, options.cell_free);
-  const RigidityMatrix g = rigidity_matrix(packing, network_law, options.cell_free);
-  const std::vector<double> k = row_stiffness(packing, g, law);
+  const ExactRank rank = exact_rank(network, network_law, options.cell_free);
+  const RigidityMatrix g = rigidity_matrix(network, network_law, options.cell_free);
+  const std::vector<double> k = row_stiffness(network, g, law);
   const bool definite = std::all_of(k.begin(), k.end(), [](double v) { return v > 0; });
 
-  Json section{{"positive_definite", nullptr}, {"inertia", nullptr}, {"stiffness", stiffness_of(law)}};
+  Json section{{"positive_definite", nullptr}, {"inertia", nullptr}, {"stiffness", stiffness_of(input)}};
   section["explanation"] = explain_floppy(rank);
   std::array<std::int64_t, 2> inertia = {0, rank.rank};  // k > 0: Gt k G has the null space of G, and nothing below it
   try {
-    const auto dependent = dependent_columns(packing, network_law, options.cell_free);
+    const auto dependent = dependent_columns(network, network_law, options.cell_free);
     std::vector<char> keep(dependent.size());
     for (std::size_t c = 0; c < keep.size(); ++c) keep[c] = !dependent[c];
     const SymmetricMatrix inner = principal_submatrix(weighted_normal_matrix(g, k), keep);
@@ -83,21 +90,22 @@ Json stiffness_section(const AnalysisInput& input, const AnalysisOptions& option
 }
 
 Json moduli_section(const AnalysisInput& input, const AnalysisOptions& options) {
-  const Packing<2>& packing = input.packing();
+  const LinkNetwork network = input.network();
   const NetworkLaw network_law = input.network_law(options);
   const DiskLaw law = law_of(input);
-  const ExactRank rank = exact_rank(packing, network_law, false);
+  const ExactRank rank = exact_rank(network, network_law, false);
   Json section = {{"tensor", nullptr}, {"floppy", rank.mechanisms > 0}, {"explanation", explain_floppy(rank)}};
   try {
-    const Json values = described(elastic_moduli(packing, network_law, law));
+    const Json values = described(elastic_moduli(network, network_law, law));
     for (const auto& [key, value] : values.items()) section[key] = value;
   } catch (const FactorisationFailed& e) {
     section["failed"] = e.what();
   }
-  section["stiffness"] = stiffness_of(law);
-  if (read_forces(input).known) {
+  section["stiffness"] = stiffness_of(input);
+  // Friction between triangles has no geometric term here.
+  if (read_forces(input).known && !(input.triangles && network_law == NetworkLaw::friction)) {
     try {
-      const TangentModuli tangent = tangent_moduli(packing, network_law, law);
+      const TangentModuli tangent = tangent_moduli(network, network_law, law);
       section["with_geometric_term"] = described(tangent.tensor);
       section["with_geometric_term"]["antisymmetric_part"] = tangent.antisymmetric_part;
     } catch (const FactorisationFailed& e) {
@@ -108,12 +116,12 @@ Json moduli_section(const AnalysisInput& input, const AnalysisOptions& options) 
 }
 
 Json modes_section(const AnalysisInput& input, const AnalysisOptions& options) {
-  const Packing<2>& packing = input.packing();
+  const LinkNetwork network = input.network();
   const NetworkLaw network_law = input.network_law(options);
   const DiskLaw law = law_of(input);
   Json section{{"omega", nullptr}};
   try {
-    const VibrationModes modes = vibration_modes(packing, network_law, law, kReportedModes, false);
+    const VibrationModes modes = vibration_modes(network, network_law, law, kReportedModes, false);
     section["omega"] = modes.omega;
     section["zero_modes"] = modes.zero_modes;
     section["converged"] = modes.converged;
@@ -122,7 +130,7 @@ Json modes_section(const AnalysisInput& input, const AnalysisOptions& options) {
   }
   if (!options.prestress) return section;
   try {
-    const PrestressedModes modes = prestressed_modes(packing, network_law, law, kReportedModes);
+    const PrestressedModes modes = prestressed_modes(network, network_law, law, kReportedModes);
     Json omega_squared = Json::array();
     for (const auto& v : modes.omega_squared) omega_squared.push_back({v.real(), v.imag()});
     section["with_geometric_term"] = {
@@ -137,9 +145,9 @@ Json modes_section(const AnalysisInput& input, const AnalysisOptions& options) {
 }
 
 std::vector<Table> modes_tables(const AnalysisInput& input, const AnalysisOptions& options) {
-  const Packing<2>& packing = input.packing();
+  const LinkNetwork network = input.network();
   const NetworkLaw network_law = input.network_law(options);
-  const VibrationModes modes = vibration_modes(packing, network_law, law_of(input), kTabulatedModes, false);
+  const VibrationModes modes = vibration_modes(network, network_law, law_of(input), kTabulatedModes, false);
   Table density{"modes.density", {"omega", "modes_below"}, {}};
   for (std::size_t k = 0; k < modes.omega.size(); ++k)
     density.rows.push_back({modes.omega[k], static_cast<double>(modes.zero_modes) + static_cast<double>(k) + 1});

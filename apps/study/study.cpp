@@ -68,7 +68,7 @@ std::vector<std::optional<std::size_t>> analysed_stages(const ParameterSet& set)
 std::string value_of(const ParameterSet& set, const std::string& name) {
   const auto given =
       std::find_if(set.settings.begin(), set.settings.end(), [&](const auto& s) { return s.first == name; });
-  for (const SceneKey& key : scene_keys()) {
+  for (const SceneKey& key : scene_keys(set.scene.system)) {
     const std::size_t copies = belongs_to_stage(key) ? set.scene.stages.size() : 1;
     for (std::size_t stage = 0; stage < copies; ++stage) {
       if (full_name(key, stage) != name) continue;
@@ -82,7 +82,7 @@ std::string value_of(const ParameterSet& set, const std::string& name) {
 
 std::string first_difference(const Scene& there, const Scene& here) {
   const std::size_t stages = std::min(there.stages.size(), here.stages.size());
-  for (const SceneKey& key : scene_keys()) {
+  for (const SceneKey& key : scene_keys(here.system)) {
     const std::size_t copies = belongs_to_stage(key) ? stages : 1;
     for (std::size_t stage = 0; stage < copies; ++stage) {
       const std::string old_value = applies(key, there) ? value_text(key, there, stage) : "";

@@ -55,6 +55,7 @@ std::string stage_key(std::size_t stage, const char* key) { return "stage." + st
 std::vector<SceneConflict> conflicts(const Scene& scene) {
   std::vector<SceneConflict> found = system_conflicts(scene);
   check_stages(scene, found);
+  for (SceneConflict& conflict : surroundings_conflicts(scene)) found.push_back(std::move(conflict));
   return found;
 }
 

@@ -15,25 +15,29 @@ std::string cell_text(std::string_view text) {
   return escaped;
 }
 
-}  // namespace
+std::string defaults_of(const SceneKey& key, SceneSystem system) {
+  if (belongs_to_units(key)) return "required";
+  const std::string value = value_text(key, scene_with_every_key(system), 0);
+  return value.empty() ? std::string(key.absent) : value;
+}
 
-std::string scene_documentation() {
-  const Scene scene = scene_with_every_key();
-  std::string text =
-      "# Scene keys\n\n"
-      "Generated from the table of keys (`dem/scene/keys.cpp`, `dem/disks/keys.cpp`); run the tests with "
-      "`ISOSTAT_REGENERATE=1` to write it "
-      "anew.\n\n"
-      "A scene is a TOML file. Every key has a default unless the table says otherwise; an unknown key is an error. On "
-      "the command line, `--set KEY=VALUE` overrides a key with a TOML value (`0.5`, `true`, `'\"text\"'`); keys of "
-      "the "
-      "n-th `[[stage]]` are `stage.n.KEY`, counted from 0. An integer is accepted for a real. A key whose condition "
-      "does not hold is ignored.\n\n"
-      "Units: a is the largest diameter, m the mass of a disk of that diameter, F0 the attraction of a contact "
-      "(without "
-      "cohesion a P), T0 = sqrt(m a / F0), V* = sqrt(F0 D0 / m), F1 = max(F0, a P).\n";
-  std::string table = "-";
+std::string row_text(const SceneKey& key) {
+  constexpr SceneSystem first = SceneSystem::disks, second = SceneSystem::triangles;
+  std::string fallback = defaults_of(key, key.systems.has(first) ? first : second);
+  if (key.systems == SystemSet::all() && defaults_of(key, second) != fallback)
+    fallback += " (triangles " + defaults_of(key, second) + ")";
+  std::string meaning(key.meaning);
+  if (key.condition.holds) meaning += " Applies when " + std::string(key.condition.in_words) + ".";
+  std::string text = "| `" + std::string(key.name) + "`";
+  for (const std::string& cell : {rule_text(key), std::string(key.unit.empty() ? "-" : key.unit), fallback, meaning})
+    text += " | " + cell_text(cell);
+  return text + " |\n";
+}
+
+std::string tables_of(SystemSet systems) {
+  std::string text, table = "-";
   for (const SceneKey& key : scene_keys()) {
+    if (key.systems != systems) continue;
     if (table_of(key) != table) {
       table = table_of(key);
       const std::string heading = table.empty()           ? "Top level"
@@ -41,19 +45,47 @@ std::string scene_documentation() {
                                   : belongs_to_units(key)
                                       ? "`[units]`, maps the reduced run to SI; all three keys or no table"
                                       : "`[" + table + "]`";
-      text += "\n## " + heading +
+      text += "\n### " + heading +
               "\n\n| key | type and range | unit | default | meaning |\n| --- | --- | --- | --- | --- |\n";
     }
-    std::string fallback = value_text(key, scene, 0);
-    if (belongs_to_units(key)) fallback = "required";
-    if (fallback.empty()) fallback = std::string(key.absent);
-    std::string meaning(key.meaning);
-    if (key.condition.holds) meaning += " Applies when " + std::string(key.condition.in_words) + ".";
-    text += "| `" + std::string(key.name) + "`";
-    for (const std::string& cell : {rule_text(key), std::string(key.unit.empty() ? "-" : key.unit), fallback, meaning})
-      text += " | " + cell_text(cell);
-    text += " |\n";
+    text += row_text(key);
   }
+  return text;
+}
+
+std::string units_text() {
+  std::string text = "\n| unit | of triangles |\n| --- | --- |\n";
+  for (const UnitWord& word : unit_words())
+    text += "| " + std::string(word.disks) + " | " + std::string(word.triangles) + " |\n";
+  return text;
+}
+
+}  // namespace
+
+std::string scene_documentation() {
+  std::string text =
+      "# Scene keys\n\n"
+      "Generated from the table of keys (`dem/scene/keys.cpp`, `dem/disks/keys.cpp`, `dem/triangles/keys.cpp`); run "
+      "the tests with `ISOSTAT_REGENERATE=1` to write it anew.\n\n"
+      "A scene is a TOML file. Every key has a default unless the table says otherwise; an unknown key is an error. On "
+      "the command line, `--set KEY=VALUE` overrides a key with a TOML value (`0.5`, `true`, `'\"text\"'`); keys of "
+      "the "
+      "n-th `[[stage]]` are `stage.n.KEY`, counted from 0. An integer is accepted for a real. A key whose condition "
+      "does not hold is ignored.\n\n"
+      "The key `system` says what the grains are, disks where it is absent. Keys of all systems come first, then those "
+      "that only one of them has; a key of another system is an error.\n\n"
+      "Units of disks: a is the largest diameter, m the mass of a disk of that diameter, F0 the attraction of a "
+      "contact (without cohesion a P), T0 = sqrt(m a / F0), V* = sqrt(F0 D0 / m), F1 = max(F0, a P).\n\n"
+      "Triangles have units of their own, cm, g and s. Where a key of all systems has a unit of disks, it is of "
+      "triangles:\n";
+  text += units_text();
+  text +=
+      "\nIn F1, F1/a and F1 a, a is then the root of the area of the largest grain, F1 = max(a P, weight of the heaviest "
+      "grain) or, without either, 1 dyn.\n";
+  text += "\n## Keys of all systems\n" + tables_of(SystemSet::all());
+  for (std::size_t s = 0; s < kSystemNames.size(); ++s)
+    text +=
+        "\n## Keys of " + std::string(kSystemNames[s]) + "\n" + tables_of(SystemSet::only(static_cast<SceneSystem>(s)));
   return text;
 }
 

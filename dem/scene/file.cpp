@@ -112,11 +112,9 @@ class Parser {
 
   Scene scene(SceneChecks checks) {
     keep_last();
-    Scene scene;
-    scene.stages.resize(stages_);
-    const bool units =
-        std::any_of(given_.begin(), given_.end(), [](const Given& g) { return g.key.starts_with("units."); });
-    if (units || units_line_) scene.units.emplace();
+    system_ = system();
+    Scene scene = default_scene(system_, stages_);
+    if ((units_line_ || has_given("units.")) && scene.system == SceneSystem::disks) scene.units.emplace();
     report_unknown();
     assign_all(scene, false);
     assign_all(scene, true);  // needs to know which keys apply
@@ -187,7 +185,7 @@ class Parser {
   std::string unknown(const std::string& key) const {
     if (is_table_name(key)) return "is a table: write [" + key + "]";
     std::vector<std::string> names;
-    for (const SceneKey& row : scene_keys()) {
+    for (const SceneKey& row : scene_keys(system_)) {
       names.push_back(full_name(row, stage_of(key).value_or(0)));
       if (std::string table = table_of(row); !table.empty() && !belongs_to_stage(row))
         names.push_back(std::move(table));
@@ -196,23 +194,49 @@ class Parser {
     return "unknown key; " + (hint.empty() ? "docs/scene.md lists all keys" : hint);
   }
 
+  // Known before everything else, for keys and defaults depend on it: a value that names no system is the only fault.
+  SceneSystem system() const {
+    Scene scene;
+    const SceneKey& key = *row_of("system", scene_keys());
+    if (const Given* g = find("system"); g && !assign(key, key.field(scene, 0), *g->node))
+      throw InputError(g->file, g->line, g->key, text_of(*g->node), rule_text(key));
+    return scene.system;
+  }
+
+  static const SceneKey* row_of(const std::string& key, const std::vector<SceneKey>& rows) {
+    const auto at = std::find_if(rows.begin(), rows.end(), [&](const SceneKey& row) {
+      return row.name == listed_name(key) && belongs_to_stage(row) == stage_of(key).has_value();
+    });
+    return at == rows.end() ? nullptr : &*at;
+  }
+
   void report_unknown() {
     for (const Given& g : given_) {
-      const bool known = std::any_of(scene_keys().begin(), scene_keys().end(), [&](const SceneKey& key) {
-        return key.name == listed_name(g.key) && belongs_to_stage(key) == stage_of(g.key).has_value();
-      });
-      if (!known) fault(g.file, g.line, g.key, text_of(*g.node), unknown(g.key));
+      if (row_of(g.key, scene_keys(system_))) continue;
+      std::string rule = unknown(g.key);
+      if (const SceneKey* other = row_of(g.key, scene_keys())) {
+        const std::size_t at = other->systems.has(SceneSystem::disks) ? 0 : 1;
+        rule = "a key of " + std::string(kSystemNames[at]) + ", and this scene is of " + std::string(name(system_)) +
+               ": the key system says so (without it: disks)";
+      }
+      fault(g.file, g.line, g.key, text_of(*g.node), rule);
     }
+    if (units_line_ && !row_of("units.a", scene_keys(system_)) && !has_given("units."))
+      fault(name_, units_line_, "units", "", "a table of disks, and this scene is of " + std::string(name(system_)));
+  }
+
+  bool has_given(const std::string& start) const {
+    return std::any_of(given_.begin(), given_.end(), [&](const Given& g) { return g.key.starts_with(start); });
   }
 
   void assign_all(Scene& scene, bool conditional) {
-    for (const SceneKey& key : scene_keys()) {
+    for (const SceneKey& key : scene_keys(scene.system)) {
       if ((key.condition.holds != nullptr) != conditional || !applies(key, scene)) continue;
       const std::size_t copies = belongs_to_stage(key) ? stages_ : 1;
       for (std::size_t stage = 0; stage < copies; ++stage)
         if (const Given* g = find(full_name(key, stage)); g && !assign(key, key.field(scene, stage), *g->node))
           fault(g->file, g->line, g->key, text_of(*g->node),
-                rule_text(key) + (key.unit.empty() ? "" : " [" + std::string(key.unit) + "]"));
+                rule_text(key) + (key.unit.empty() ? "" : " [" + std::string(unit_text(key, scene.system)) + "]"));
     }
   }
 
@@ -293,7 +317,7 @@ class Parser {
   }
 
   void require_units() {
-    for (const SceneKey& key : scene_keys())
+    for (const SceneKey& key : scene_keys(system_))
       if (belongs_to_units(key) && !find(std::string(key.name)))
         fault(name_, units_line_, std::string(key.name), "", "missing: [units] needs all of its keys");
   }
@@ -315,6 +339,7 @@ class Parser {
   std::deque<toml::table> tables_;  // nodes stay where they are
   std::vector<Given> given_;
   std::vector<Fault> faults_;
+  SceneSystem system_ = SceneSystem::disks;
   std::size_t stages_ = 0;
   int units_line_ = 0;
 };

@@ -40,7 +40,16 @@ inline constexpr SceneRange positive{0, kInfinity, true, false};
 inline constexpr SceneRange not_negative{0, kInfinity, false, false};
 constexpr SceneRange from(double low, double high) { return {low, high, false, false}; }
 
-inline constexpr SceneCondition random_start{[](const Scene& s) { return s.grains.file.empty(); },
+inline constexpr SceneCondition random_start{[](const Scene& s) {
+                                               return s.system == SceneSystem::disks ? s.grains.file.empty()
+                                                                                     : s.triangle_grains.file.empty();
+                                             },
                                              "grains.file is empty"};
+
+// Rows as the rows of one system.
+inline std::vector<SceneKey> of(SceneSystem system, std::vector<SceneKey> rows) {
+  for (SceneKey& row : rows) row.systems = SystemSet::only(system);
+  return rows;
+}
 
 }  // namespace isostat::key_rows

@@ -9,39 +9,47 @@ namespace isostat {
 namespace {
 
 SceneField seed_field(Scene& scene, std::size_t) { return &scene.seed; }
+SceneField system_field(Scene& scene, std::size_t) { return &scene.system; }
 
 constexpr SceneCondition has_finishing{[](const Scene& s) { return s.finish.method != Finish::none; },
                                        "finish.method is not \"none\""};
+constexpr SceneCondition has_cell{[](const Scene& s) { return s.container.shape == ContainerShape::none; },
+                                  "container.shape is \"none\""};
+constexpr SceneCondition has_random_cell{
+    [](const Scene& s) { return key_rows::random_start.holds(s) && has_cell.holds(s); },
+    "grains.file is empty and container.shape is \"none\""};
 constexpr SceneCondition has_series{[](const Scene& s) { return !s.output.series.empty(); }, "output.series is given"};
 
 std::vector<SceneKey> common_keys() {
   using S = Scene;
   using namespace key_rows;
+  constexpr SystemSet of_disks = SystemSet::only(SceneSystem::disks);
   return {
+      {.name = "system",
+       .field = system_field,
+       .choices = names(kSystemNames),
+       .hidden_at_default = true,
+       .meaning = "What the grains are: disks, or triangles joined by beams."},
       {.name = "seed",
        .field = seed_field,
        .range = not_negative,
        .meaning =
            "Seed of the random generator; the same scene and seed give the same bits for any number of threads."},
 
-      {.name = "step.fraction",
-       .field = in<&S::step, &StepScene::fraction>,
-       .range = positive,
-       .meaning = "c of the time step dt = c sqrt(m_max / K_N). 0.06 is the reference, 0.10 to 0.12 production; above "
-                  "0.16 packings are noisy; a step beyond the stability bound of the smallest grain is refused."},
-
       {.name = "cell.inertia",
        .field = in<&S::cell, &CellScene::inertia>,
        .unit = "sum m",
        .range = positive,
+       .condition = has_cell,
        .meaning = "Mass of the cell's degrees of freedom (Gilabert 2007, Eq. 3) over the mass of all grains."},
       {.name = "cell.aspect",
        .field = in<&S::cell, &CellScene::aspect>,
        .range = positive,
-       .condition = random_start,
+       .condition = has_random_cell,
        .meaning = "L1 / L2 of the initial cell."},
       {.name = "cell.rate_coupling",
        .field = in<&S::cell, &CellScene::rate_coupling>,
+       .condition = has_cell,
        .meaning = "Add -(Ldot/L) v to the peculiar acceleration; the paper's equations have no such term."},
 
       {.name = "equilibrium.force",
@@ -126,6 +134,7 @@ std::vector<SceneKey> common_keys() {
        .field = in<&S::stages, &StageScene::velocity>,
        .unit = "V*",
        .range = not_negative,
+       .systems = of_disks,
        .meaning =
            "Root mean square velocity drawn at the start of the stage, V* = sqrt(F0 D0 / m); 0: velocities are kept."},
       {.name = "stage.max_strain_rate",
@@ -138,25 +147,30 @@ std::vector<SceneKey> common_keys() {
        .unit = "F0/a",
        .range = positive,
        .absent = "it stays",
+       .systems = of_disks,
        .meaning = "K_N that the contacts are brought to, exponentially in time over stage.stiffening_time; K_T and "
                   "K_r follow unless the scene sets them."},
       {.name = "stage.stiffening_time",
        .field = in<&S::stages, &StageScene::stiffening_time>,
        .unit = "T0",
        .range = positive,
+       .systems = of_disks,
        .meaning = "Length of the change of K_N; the stage does not end before."},
       {.name = "stage.stiffening_keeps",
        .field = in<&S::stages, &StageScene::stiffening_keeps>,
        .choices = names(kSpringsNames),
+       .systems = of_disks,
        .meaning = "What the springs of friction and rolling keep while their stiffness changes: their forces and "
                   "moments, or their elongations, so that forces grow with K_T and K_r up to their limits."},
       {.name = "stage.until",
        .field = in<&S::stages, &StageScene::until>,
        .choices = names(kUntilNames),
        .meaning =
-           "What ends the stage: equilibrium; aggregated, i.e. equilibrium of a single cluster; a time; the strain of "
-           "a driven direction; failure, when the stress of a driven direction has lost the part stage.drop of the "
-           "largest change it had. If it is not met within stage.max_time the exit code is 3."},
+           "What ends the stage: equilibrium; aggregated, i.e. equilibrium of a single cluster (disks); a time; the "
+           "strain of a driven direction; failure, when the stress of a driven direction has lost the part stage.drop "
+           "of the largest change it had; empty, when every grain has left a hopper; clogged, when none has left it "
+           "for stage.clog_time; separated, when two colliding grains have met and left each other (triangles). If it "
+           "is not met within stage.max_time the exit code is 3."},
       {.name = "stage.time",
        .field = in<&S::stages, &StageScene::time>,
        .unit = "T0",
@@ -206,14 +220,15 @@ std::vector<SceneKey> common_keys() {
 }
 
 // The order of tables in documentation and echo.
-constexpr std::array<std::string_view, 10> kTables{"",       "grains", "law",    "step", "cell", "equilibrium",
-                                                   "finish", "stage",  "output", "units"};
+constexpr std::array<std::string_view, 11> kTables{
+    "", "grains", "law", "container", "step", "cell", "equilibrium", "finish", "stage", "output", "units"};
 std::ptrdiff_t place(const SceneKey& key) {
   return std::find(kTables.begin(), kTables.end(), table_of(key)) - kTables.begin();
 }
 
 std::vector<SceneKey> make_table() {
   std::vector<SceneKey> table = common_keys();
+  for (SceneKey& key : surroundings_keys()) table.push_back(std::move(key));
   for (SceneKey& key : system_keys()) table.push_back(std::move(key));
   std::stable_sort(table.begin(), table.end(),
                    [](const SceneKey& a, const SceneKey& b) { return place(a) < place(b); });
@@ -225,6 +240,17 @@ std::vector<SceneKey> make_table() {
 const std::vector<SceneKey>& scene_keys() {
   static const std::vector<SceneKey> table = make_table();
   return table;
+}
+
+const std::vector<SceneKey>& scene_keys(SceneSystem system) {
+  static const auto tables = [] {
+    std::array<std::vector<SceneKey>, kSystemNames.size()> all;
+    for (std::size_t s = 0; s < all.size(); ++s)
+      for (const SceneKey& key : scene_keys())
+        if (key.systems.has(static_cast<SceneSystem>(s))) all[s].push_back(key);
+    return all;
+  }();
+  return tables[static_cast<std::size_t>(system)];
 }
 
 bool belongs_to_stage(const SceneKey& key) { return key.name.starts_with("stage."); }
@@ -243,7 +269,8 @@ std::string full_name(const SceneKey& key, std::size_t stage) {
 }
 
 bool applies(const SceneKey& key, const Scene& scene) {
-  return (!key.condition.holds || key.condition.holds(scene)) && (!belongs_to_units(key) || scene.units);
+  return key.systems.has(scene.system) && (!key.condition.holds || key.condition.holds(scene)) &&
+         (!belongs_to_units(key) || scene.units);
 }
 
 }  // namespace isostat

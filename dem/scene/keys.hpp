@@ -17,7 +17,22 @@ namespace isostat {
 
 // Where the value of a key lives in a scene; the alternative is the type of the key.
 using SceneField = std::variant<bool*, int*, std::uint64_t*, double*, std::optional<double>*, std::string*,
-                                std::vector<double>*, Finish*, Until*, Springs*>;
+                                std::vector<double>*, Finish*, Until*, Springs*, SceneSystem*, ContainerShape*,
+                                ContainerWalls*, Integrator*, Arrangement*, ContactLaw*, BeamFailure*>;
+
+// Systems that have a key. Keys of one name in two systems are two rows, with defaults and ranges of their own.
+class SystemSet {
+ public:
+  static constexpr SystemSet all() { return SystemSet(~0u); }
+  static constexpr SystemSet only(SceneSystem s) { return SystemSet(bit(s)); }
+  constexpr bool has(SceneSystem s) const { return bits_ & bit(s); }
+  friend constexpr bool operator==(SystemSet, SystemSet) = default;
+
+ private:
+  constexpr explicit SystemSet(unsigned bits) : bits_(bits) {}
+  static constexpr unsigned bit(SceneSystem s) { return 1u << static_cast<unsigned>(s); }
+  unsigned bits_;
+};
 
 struct SceneRange {
   double low = -std::numeric_limits<double>::infinity();
@@ -36,16 +51,20 @@ struct SceneCondition {
 struct SceneKey {
   std::string_view name;                                 // dotted; keys of a [[stage]] are `stage.KEY`
   SceneField (*field)(Scene& scene, std::size_t stage);  // stage: which [[stage]], for its keys
-  std::string_view unit{};                               // empty: not a quantity
+  std::string_view unit{};                               // in the words of disks (unit_text()); empty: not a quantity
   SceneRange range{};                                    // numbers, and each element of a list
   std::vector<std::string_view> choices{};               // texts: what is allowed; empty: anything
   std::string_view absent{};                             // what leaving out an optional key means
   SceneCondition condition{};                            // where it does not hold the key is ignored
-  std::string_view meaning;                              // one sentence
+  SystemSet systems = SystemSet::all();
+  bool hidden_at_default = false;  // at its default it is left out of the echo, as if the key were not there
+  std::string_view meaning;        // one sentence
 };
 
 std::vector<SceneKey> system_keys();        // the rows of all systems (dem/systems.cpp)
-const std::vector<SceneKey>& scene_keys();  // in the order of documentation and echo
+std::vector<SceneKey> surroundings_keys();  // gravity, [container], and what a stage does with it
+const std::vector<SceneKey>& scene_keys();  // in the order of documentation and echo; names may come twice
+const std::vector<SceneKey>& scene_keys(SceneSystem system);  // those that it has
 bool belongs_to_stage(const SceneKey& key);
 bool belongs_to_units(const SceneKey& key);
 
@@ -55,7 +74,7 @@ std::string full_name(const SceneKey& key, std::size_t stage);
 std::string table_of(const SceneKey& key);      // empty at top level
 std::string_view leaf_of(const SceneKey& key);  // the name within its table
 
-// False: the key is ignored in this scene.
+// False: the key is ignored in this scene, or one of another system.
 bool applies(const SceneKey& key, const Scene& scene);
 
 }  // namespace isostat

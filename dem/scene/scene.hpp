@@ -143,4 +143,8 @@ struct Scene {
   friend bool operator==(const Scene&, const Scene&) = default;
 };
 
+// A scene of this system without keys, with so many stages without keys: the defaults of times and rates go with the
+// units of a system.
+Scene default_scene(SceneSystem system, std::size_t stages = 0);
+
 }  // namespace isostat

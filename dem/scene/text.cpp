@@ -1,5 +1,6 @@
 #include "dem/scene/text.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <limits>
@@ -10,7 +11,8 @@ namespace {
 
 std::string_view type_name(const SceneField& field) {
   constexpr std::array<std::string_view, std::variant_size_v<SceneField>> names{
-      "boolean", "integer", "integer", "real", "real", "text", "list of reals", "text", "text", "text"};
+      "boolean", "integer", "integer", "real", "real", "text", "list of reals", "text", "text",
+      "text",    "text",    "text",    "text", "text", "text", "text",          "text"};
   return names[field.index()];
 }
 
@@ -37,11 +39,23 @@ SceneField field_of(const SceneKey& key, const Scene& scene, std::size_t stage) 
 
 }  // namespace
 
-Scene scene_with_every_key() {
-  Scene scene;
-  scene.stages.resize(1);
+Scene scene_with_every_key(SceneSystem system) {
+  Scene scene = default_scene(system, 1);
   scene.units.emplace();
   return scene;
+}
+
+const std::vector<UnitWord>& unit_words() {
+  static const std::vector<UnitWord> words{
+      {"a", "cm"}, {"T0", "s"}, {"1/T0", "1/s"}, {"a/T0^2", "cm/s^2"}, {"F0/a", "g/s^2"}};
+  return words;
+}
+
+std::string_view unit_text(const SceneKey& key, SceneSystem system) {
+  if (system == SceneSystem::disks || !key.systems.has(SceneSystem::disks)) return key.unit;
+  const auto& words = unit_words();
+  const auto found = std::find_if(words.begin(), words.end(), [&](const UnitWord& w) { return w.disks == key.unit; });
+  return found == words.end() ? key.unit : found->triangles;
 }
 
 std::string real_text(double value) {
@@ -92,7 +106,7 @@ std::string value_text(const SceneKey& key, const Scene& scene, std::size_t stag
 }
 
 std::string rule_text(const SceneKey& key) {
-  const Scene scene = scene_with_every_key();
+  const Scene scene = scene_with_every_key(SceneSystem::disks);
   std::string text(type_name(field_of(key, scene, 0)));
   if (!key.choices.empty()) {
     text = "one of";
@@ -102,10 +116,17 @@ std::string rule_text(const SceneKey& key) {
   return range.empty() ? text : text + " " + range;
 }
 
+bool echoed(const SceneKey& key, const Scene& scene, std::size_t stage) {
+  if (!applies(key, scene)) return false;
+  if (!key.hidden_at_default) return true;
+  Scene plain;
+  plain.stages.resize(scene.stages.size());
+  return value_text(key, scene, stage) != value_text(key, plain, stage);
+}
+
 std::string scene_to_toml(const Scene& scene) {
   std::string text, table;
   const auto write = [&](const SceneKey& key, std::size_t stage) {
-    if (!applies(key, scene)) return;
     const std::string value = value_text(key, scene, stage);
     const std::string name(leaf_of(key));
     if (!value.empty())
@@ -113,8 +134,8 @@ std::string scene_to_toml(const Scene& scene) {
     else
       text += "# " + name + ": " + std::string(key.absent) + "\n";
   };
-  for (const SceneKey& key : scene_keys()) {
-    if (belongs_to_stage(key) || (belongs_to_units(key) && !scene.units)) continue;
+  for (const SceneKey& key : scene_keys(scene.system)) {
+    if (belongs_to_stage(key) || !echoed(key, scene, 0)) continue;
     if (table_of(key) != table) {
       table = table_of(key);
       text += "\n[" + table + "]\n";
@@ -123,8 +144,8 @@ std::string scene_to_toml(const Scene& scene) {
   }
   for (std::size_t stage = 0; stage < scene.stages.size(); ++stage) {
     text += "\n[[stage]]\n";
-    for (const SceneKey& key : scene_keys())
-      if (belongs_to_stage(key)) write(key, stage);
+    for (const SceneKey& key : scene_keys(scene.system))
+      if (belongs_to_stage(key) && echoed(key, scene, stage)) write(key, stage);
   }
   return text;
 }

@@ -24,6 +24,9 @@ constexpr std::size_t kWindow =
 // The pairs of triangles whose circles are within the skin.
 void Candidates::look(const GrainStore& store, const Near& near, const Vec2& offset, double skin) {
   const auto &x = store[GrainStore::x], &y = store[GrainStore::y], &reach = store[GrainStore::reach];
+  const Vec2 apart = store.position(near.j) + offset - store.position(near.i);
+  const double hold = store.tight(near.i) + store.tight(near.j) + skin;
+  if (near.place != kNowhere && dot(apart, apart) > hold * hold) return;
   Near found = near;
   found.begin = static_cast<std::uint32_t>(maybe_a_.size());
   for (std::size_t s = 0; s < store.triangles(near.i); ++s) {

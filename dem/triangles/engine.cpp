@@ -47,6 +47,9 @@ void TriangleEngine::load(const State<TriangleGrains>& state) {
   for (const double r : p.bodies.radius) smallest_reach_ = std::min(smallest_reach_, r);
   cut_chunks();
   kernels_.corners(0, store_.slots(), store_.arrays());
+  store_.measure_circles();
+  // Of a restart the circles are those that its lists were made with.
+  if (state.memory.lists.inner_position.empty()) store_.grow_circles();
   lists_.emplace(store_.size(), 0.0, GrainPairs{});
   if (state.memory.lists.inner_position.empty())
     build_lists(p.cell, state.memory.pairs);
@@ -101,7 +104,7 @@ void TriangleEngine::restore_lists(const State<TriangleGrains>& state) {
   then[Store::x] = store_[Store::built_x], then[Store::y] = store_[Store::built_y];
   then[Store::angle] = store_[Store::built_angle];
   kernels_.corners(0, then.slots(), then.arrays());
-  then.measure_centres();
+  then.measure_circles();
   build_candidates(then, state.memory.lists.inner_length == Vec2{}
                              ? Cell{}
                              : Cell{PeriodicCell<2>{state.memory.lists.inner_length}});
@@ -126,7 +129,7 @@ void TriangleEngine::update_lists(const Cell& cell, double displacement) {
   }
   candidates_.store_springs(*lists_);
   wall_springs_ = candidates_.wall_springs(store_);
-  store_.measure_centres();
+  store_.measure_circles();
   if (store_.grow_circles()) {
     lists_->update(store_, cell, displacement);
     if (!std::isfinite(displacement)) throw ListFailure("a velocity is not a number");

@@ -77,9 +77,6 @@ void GrainStore::load(const TrianglePacking& p, const TriangleLaw& law, const Tr
       set_beam(beam_place(k, b), p.beams[idx(p.links[links[k][b]].beam)], law.damping);
   }
   fill_padding();
-  measure_centres();
-  // Of a restart the circles are those that its lists were made with.
-  if (m.lists.inner_position.empty()) grow_circles();
 }
 
 void GrainStore::set_beam(std::size_t place, const Beam& b, double gamma) {
@@ -164,7 +161,8 @@ void GrainStore::reorder(const std::vector<std::int32_t>& to) {
     for (std::size_t k = 0; k < to.size(); ++k) values[idx(to[k])] = old[k];
   };
   const std::vector<std::size_t> old_slot = slot_, old_beam = beam_slot_;
-  permute(id), permute(part_), permute(radius_), permute(inverse_length_), permute(centre_), permute(topology_);
+  permute(id), permute(part_), permute(radius_), permute(inverse_length_), permute(centre_), permute(tight_),
+      permute(topology_);
   std::vector<std::size_t> from(grains());
   std::iota(from.begin(), from.end(), std::size_t{0});
   for (std::size_t k = 0; k < to.size(); ++k) from[idx(to[k])] = k;
@@ -190,33 +188,34 @@ void GrainStore::reorder(const std::vector<std::int32_t>& to) {
   fill_padding();
 }
 
-void GrainStore::measure_centres() {
-  centre_.resize(grains());
+void GrainStore::measure_circles() {
+  centre_.resize(grains()), tight_.resize(grains());
   for (std::size_t g = 0; g < grains(); ++g) {
     Vec2 sum{};
     for (std::size_t t = 0; t < triangles(g); ++t) sum += Vec2{{column_[x][slot(g, t)], column_[y][slot(g, t)]}};
     centre_[g] = (1 / static_cast<double>(triangles(g))) * sum;
+    double squared = 0;
+    for (std::size_t t = 0; t < triangles(g); ++t) {
+      const double* row = rows.data() + slot(g, t) * kernel::kCornerRow;
+      for (int c = 0; c < 3; ++c) {
+        const Vec2 d = Vec2{{row[2 * c], row[2 * c + 1]}} - centre_[g];
+        squared = std::max(squared, dot(d, d));
+      }
+    }
+    tight_[g] = std::sqrt(squared);
   }
+}
+
+bool GrainStore::grow_circles() {
+  bool held = true;
+  for (std::size_t g = 0; g < grains(); ++g)
+    if (!(tight_[g] <= radius_[g])) radius_[g] = kGrowth * tight_[g], held = false;
+  return held;
 }
 
 double GrainStore::largest_radius() const {
   return listed_ == 0 ? 0.0
                       : *std::max_element(radius_.begin(), radius_.begin() + static_cast<std::ptrdiff_t>(listed_));
-}
-
-bool GrainStore::grow_circles() {
-  bool held = true;
-  for (std::size_t g = 0; g < grains(); ++g) {
-    double radius = 0;
-    for (std::size_t t = 0; t < triangles(g); ++t) {
-      const std::size_t s = slot(g, t);
-      const Vec2 d = Vec2{{column_[x][s], column_[y][s]}} - centre_[g];
-      radius = std::max(radius, norm(d) + column_[reach][s]);
-    }
-    if (radius <= radius_[g]) continue;
-    radius_[g] = kGrowth * radius, held = false;
-  }
-  return held;
 }
 
 GrainArrays GrainStore::arrays() {

@@ -43,8 +43,9 @@ class GrainStore {
   const std::array<std::uint16_t, 2>& joined(std::size_t g, std::size_t b) const { return topology_[g]->joined[b]; }
   std::size_t slot(std::size_t g, std::size_t t) const { return slot_[g] + kernel_lanes * t; }
   std::size_t beam_place(std::size_t g, std::size_t b) const { return beam_slot_[g] + kernel_lanes * b; }
-  // Centres of the circles from the triangles as they stand.
-  void measure_centres();
+  // Centres, and the radii within which the grains are, from the rows as they stand.
+  void measure_circles();
+  double tight(std::size_t g) const { return tight_[g]; }
   // Larger circles for grains that have outgrown theirs. True: there were none.
   bool grow_circles();
 
@@ -140,7 +141,7 @@ class GrainStore {
   std::vector<Topology> topologies_;       // sorted: free ones first
   std::vector<const Topology*> topology_;  // of grains
   std::vector<GrainPart> part_;
-  std::vector<double> radius_, inverse_length_;
+  std::vector<double> radius_, tight_, inverse_length_;
   std::vector<Vec2> centre_;
   std::vector<std::size_t> slot_, beam_slot_;
   std::vector<GrainBlock> blocks_;

@@ -9,11 +9,6 @@
 
 namespace isostat {
 
-// 1/L_c [1/cm] of two grains: of law.overlap_length if that is given, else the mean of 1/l, l the root of a grain's
-// area; a wall or lid has none of its own (L_c = 2 l of the free grain).
-double inverse_overlap_length(const TrianglePacking& packing, const TriangleLaw& law, std::int32_t grain_i,
-                              std::int32_t grain_j);
-
 // One record for each connected overlap, in the order of `found`.
 std::vector<Overlap> overlaps_at_rest(const TrianglePacking& packing, std::span<const Triangle> triangles,
                                       const TriangleLaw& law, const ConnectedOverlaps& found);

@@ -2,7 +2,7 @@
 // systems). Units cm, g, s; Poeschel and Buchholtz 1995.
 #pragma once
 #include <array>
-#include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -33,8 +33,6 @@ inline constexpr std::array<std::string_view, 2> kContactLawNames{"overlap-energ
 enum class BeamFailure { none, break_, yield };
 inline constexpr std::array<std::string_view, 3> kBeamFailureNames{"none", "break", "yield"};
 
-inline constexpr double kNever = std::numeric_limits<double>::infinity();
-
 // [law] of triangles.
 struct TriangleLawScene {
   ContactLaw contact = ContactLaw::overlap_energy;
@@ -46,11 +44,11 @@ struct TriangleLawScene {
   double bending = 10;                // E I [g cm^3/s^2]
   double damping = 9;                 // gamma [g/s] of the beams
   BeamFailure failure = BeamFailure::none;
-  double limit_tension = kNever;  // [dyn] -N of a beam
-  double limit_shear = kNever;    // [dyn] |T|
-  double limit_bending = kNever;  // [dyn cm] the larger |end moment|
-  double limit_stretch = kNever;  // [-] |L/L0 - 1|
-  double limit_angle = kNever;    // [rad] the larger |T_a|, |T_b|
+  std::optional<double> limit_tension;  // [dyn] -N of a beam; absent, as the others: never
+  std::optional<double> limit_shear;    // [dyn] |T|
+  std::optional<double> limit_bending;  // [dyn cm] the larger |end moment|
+  std::optional<double> limit_stretch;  // [-] |L/L0 - 1|
+  std::optional<double> limit_angle;    // [rad] the larger |T_a|, |T_b|
   friend bool operator==(const TriangleLawScene&, const TriangleLawScene&) = default;
 };
 

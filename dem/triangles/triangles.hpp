@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -83,6 +84,8 @@ inline std::vector<std::int32_t> grain_of(const Grains& grains) {
       of[k] = static_cast<std::int32_t>(g);
   return of;
 }
+
+inline constexpr double kNever = std::numeric_limits<double>::infinity();  // a limit that no beam reaches
 
 // The law with its defaults filled in.
 struct TriangleLaw {

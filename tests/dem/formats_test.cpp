@@ -2,7 +2,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -17,6 +16,7 @@
 #include "dem/input_error.hpp"
 #include "tests/oracle/network_oracle.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/vtk_array.hpp"
 
 namespace isostat {
 namespace {
@@ -362,19 +362,6 @@ TEST(Xyz, HasLatticeAndOneRowAGrain) {
     EXPECT_EQ(r, p.bodies.radius[k]);
     std::getline(in, line);
   }
-}
-
-// Finds a DataArray by name after `from` and returns its values from the appended block.
-template <class Number>
-std::vector<Number> vtk_array(const std::string& vtp, const std::string& name, const std::string& from = "<Piece") {
-  const std::size_t tag = vtp.find("Name=\"" + name + "\"", vtp.find(from));
-  const std::size_t offset = std::stoul(vtp.substr(vtp.find("offset=\"", tag) + 8));
-  const std::size_t block = vtp.find("<AppendedData encoding=\"raw\">\n_") + 31;
-  std::uint64_t bytes = 0;
-  std::memcpy(&bytes, vtp.data() + block + offset, sizeof bytes);
-  std::vector<Number> values(bytes / sizeof(Number));
-  std::memcpy(values.data(), vtp.data() + block + offset + sizeof bytes, bytes);
-  return values;
 }
 
 TEST(Vtp, LinesHaveTheLengthAndDirectionOfTheirBranches) {

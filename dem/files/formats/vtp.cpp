@@ -1,47 +1,20 @@
 #include "dem/files/formats/vtp.hpp"
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <vector>
 
+#include "dem/files/formats/vtk_appended.hpp"
 #include "dem/state/link_ends.hpp"
 
 namespace isostat {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "raw appended data is written as little endian");
 
 Vec3 spatial(double spin) { return {{0, 0, spin}}; }
 Vec3 spatial(const Vec2& v) { return {{v[0], v[1], 0}}; }
 Vec3 spatial(const Vec3& v) { return v; }
 double squared(double t) { return t * t; }
 double squared(const Vec3& t) { return dot(t, t); }
-
-// Header lines in the order of the arrays, and the appended block they point into.
-class Appended {
- public:
-  template <class Number>
-  std::string array(const std::string& name, const std::vector<Number>& values, int components = 1) {
-    const char* type = std::is_same_v<Number, double>         ? "Float64"
-                       : std::is_same_v<Number, std::int64_t> ? "Int64"
-                                                              : "Int8";
-    std::string header = "<DataArray type=\"" + std::string(type) + "\" Name=\"" + name + "\" NumberOfComponents=\"" +
-                         std::to_string(components) + "\" format=\"appended\" offset=\"" +
-                         std::to_string(block_.size()) + "\"/>\n";
-    const std::uint64_t bytes = values.size() * sizeof(Number);
-    const std::size_t at = block_.size();
-    block_.resize(at + sizeof bytes + bytes);
-    std::memcpy(block_.data() + at, &bytes, sizeof bytes);
-    if (bytes > 0) std::memcpy(block_.data() + at + sizeof bytes, values.data(), bytes);
-    return header;
-  }
-  const std::string& block() const { return block_; }
-
- private:
-  std::string block_;
-};
 
 void push(std::vector<double>& a, const Vec3& v) { a.insert(a.end(), v.c.begin(), v.c.end()); }
 void push_value(std::vector<double>& a, double v) { a.push_back(v); }
@@ -101,27 +74,23 @@ std::string vtk_polydata(const Packing<D>& packing, double time) {
     cells.add(static_cast<std::int8_t>(l.kind), l);
   }
 
-  Appended data;
+  VtkAppended data;
+  const std::string head = data.polydata_head(time);
   const std::string counts = "<Piece NumberOfPoints=\"" + std::to_string(points.id.size()) + "\" NumberOfVerts=\"" +
                              std::to_string(b.size()) + "\" NumberOfLines=\"" + std::to_string(packing.links.size()) +
                              "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n";
   constexpr int vector_size = D == 2 ? 1 : 3;
-  std::string xml =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-      "header_type=\"UInt64\">\n<PolyData>\n<FieldData>\n";
-  std::string field = data.array("TimeValue", std::vector<double>{time});
-  field.insert(field.find(" format="), " NumberOfTuples=\"1\"");
-  xml += field + "</FieldData>\n" + counts + "<PointData Scalars=\"radius\" Vectors=\"velocity\">\n" +
-         data.array("id", points.id) + data.array("radius", points.radius) + data.array("mass", points.mass) +
-         data.array("velocity", points.velocity, 3) + data.array("spin", points.spin, 3) +
-         data.array("image", points.image) + "</PointData>\n<CellData Scalars=\"N\">\n" +
-         data.array("kind", cells.kind) + data.array("gap", cells.gap) + data.array("N", cells.normal) +
-         data.array("T", cells.tangential, vector_size) + data.array("M", cells.moment, vector_size) +
-         data.array("F", cells.total) + "</CellData>\n<Points>\n" + data.array("Points", points.position, 3) +
-         "</Points>\n<Verts>\n" + data.array("connectivity", vertices) + data.array("offsets", vertex_ends) +
-         "</Verts>\n<Lines>\n" + data.array("connectivity", lines) + data.array("offsets", line_ends) +
-         "</Lines>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
-  return xml + data.block() + "\n</AppendedData>\n</VTKFile>\n";
+  const std::string xml =
+      head + counts + "<PointData Scalars=\"radius\" Vectors=\"velocity\">\n" + data.array("id", points.id) +
+      data.array("radius", points.radius) + data.array("mass", points.mass) +
+      data.array("velocity", points.velocity, 3) + data.array("spin", points.spin, 3) +
+      data.array("image", points.image) + "</PointData>\n<CellData Scalars=\"N\">\n" + data.array("kind", cells.kind) +
+      data.array("gap", cells.gap) + data.array("N", cells.normal) + data.array("T", cells.tangential, vector_size) +
+      data.array("M", cells.moment, vector_size) + data.array("F", cells.total) + "</CellData>\n<Points>\n" +
+      data.array("Points", points.position, 3) + "</Points>\n<Verts>\n" + data.array("connectivity", vertices) +
+      data.array("offsets", vertex_ends) + "</Verts>\n<Lines>\n" + data.array("connectivity", lines) +
+      data.array("offsets", line_ends) + "</Lines>\n";
+  return xml + data.polydata_tail();
 }
 
 template std::string vtk_polydata(const Packing<2>&, double);

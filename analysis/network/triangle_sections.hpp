@@ -1,0 +1,15 @@
+// Sections of the report for grains of triangles, where they differ from those for disks (docs/report.md).
+#pragma once
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "analysis/section.hpp"
+
+namespace isostat {
+
+nlohmann::ordered_json triangle_counts(const AnalysisInput& input);
+std::vector<Table> triangle_counts_tables(const AnalysisInput& input);
+nlohmann::ordered_json triangle_equilibrium(const State<TriangleGrains>& state);
+nlohmann::ordered_json triangle_stress(const State<TriangleGrains>& state);
+
+}  // namespace isostat
