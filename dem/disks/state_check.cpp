@@ -10,6 +10,9 @@ std::optional<StateFault> memory_fault(const DiskMemory& m, const Packing<2>& pa
   for (const std::size_t size : {m.half_velocity.size(), m.half_spin.size(), m.force.size(), m.torque.size(),
                                  m.lists.outer_position.size(), m.lists.inner_position.size()})
     if (size != n && size != 0) return StateFault{"solver", "an array has neither one element a grain nor none"};
+  if (m.wall_position.size() != n - count_free(packing) && !m.wall_position.empty())
+    return StateFault{"solver/wall_position", "has neither one element for each grain of a wall nor none"};
+  if (auto f = check_values(m.wall_position, "solver/wall_position")) return f;
   if (auto f = check_values(m.half_velocity, "solver/half_velocity")) return f;
   if (auto f = check_values(m.half_spin, "solver/half_spin")) return f;
   if (auto f = check_values(m.force, "solver/force")) return f;

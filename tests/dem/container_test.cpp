@@ -13,11 +13,14 @@
 #include "dem/disks/physical_hash.hpp"
 #include "dem/disks/sample.hpp"
 #include "dem/disks/series.hpp"
+#include "dem/disks/state_check.hpp"
+#include "dem/files/state_file.hpp"
 #include "dem/input_error.hpp"
 #include "dem/run/stages.hpp"
 #include "dem/state/balance.hpp"
 #include "dem/state/container_motion.hpp"
 #include "dem/state/container_region.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace isostat {
 namespace {
@@ -260,6 +263,8 @@ TEST(Hopper, AnInterruptedRunGoesOnAsIfItHadNotBeen) {
   EXPECT_GT(straight.surroundings.grains_left, 10);
   EXPECT_LT(straight.surroundings.grains_left, 60);
 
+  const TemporaryFolder folder;
+  const std::string path = folder / "state.h5";
   State<Disks> s = initial_disks(scene, 6);
   int interruptions = 0;
   for (bool done = false; !done && interruptions < 1000; interruptions += !done) {
@@ -269,6 +274,8 @@ TEST(Hopper, AnInterruptedRunGoesOnAsIfItHadNotBeen) {
     hooks.observe = [](const State<Disks>&) {};
     hooks.observe_interval = 0.0937;  // stops at odd steps
     done = !run_stages(s, {}, hooks).interrupted;
+    write_state(s, path);
+    s = read_state<Disks>(path);
   }
   EXPECT_GT(interruptions, 20);
   EXPECT_EQ(physical_hash(s), physical_hash(straight));
@@ -279,6 +286,27 @@ TEST(Hopper, AnInterruptedRunGoesOnAsIfItHadNotBeen) {
   two.threads = 2;
   run_stages(shared, two, {});
   EXPECT_EQ(physical_hash(shared), physical_hash(straight));
+}
+
+TEST(StateOfAContainer, WithAWrongListOfWallsIsRefused) {
+  Scene scene = scene_of(ContainerShape::box, 10);
+  scene.stages = {timed(1)};
+  State<Disks> s = initial_disks(scene, 1);
+  run_stages(s, {}, {});
+  ASSERT_FALSE(state_fault(s));
+  const std::string hash = physical_hash(s);
+  State<Disks> bad = s;
+  bad.packing.part.pop_back();
+  EXPECT_EQ(state_fault(bad)->field, "particles/grains/part");
+  bad = s;
+  bad.packing.part[0] = static_cast<GrainPart>(3);
+  EXPECT_EQ(state_fault(bad)->field, "particles/grains/part");
+  bad = s;
+  bad.memory.wall_position.pop_back();
+  EXPECT_EQ(state_fault(bad)->field, "solver/wall_position");
+  bad = s;
+  bad.packing.part[0] = bad.packing.part[0] == GrainPart::free ? GrainPart::wall : GrainPart::free;
+  EXPECT_NE(physical_hash(bad), hash);
 }
 
 TEST(RemoveBodies, KeepsOrderAndRenumbers) {
