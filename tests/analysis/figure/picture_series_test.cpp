@@ -111,7 +111,7 @@ std::size_t count(const std::string& text, const std::string& pattern) {
   return static_cast<std::size_t>(std::distance(std::sregex_iterator(text.begin(), text.end(), r), {}));
 }
 
-TEST(Film, OneFrameShowsAtATime) {
+TEST(FilmCanvas, OneFrameShowsAtATime) {
   const PeriodicCell<2> cell{{{8, 8}}};
   const std::vector<Packing<2>> packings{disk_at({{3, 3}}, cell), disk_at({{4, 4}}, cell), disk_at({{5, 5}}, cell)};
   const PictureSeries series = series_of(packings);
@@ -131,7 +131,7 @@ TEST(Film, OneFrameShowsAtATime) {
 }
 
 // Each frame is visible for its third of 0.6 s.
-TEST(Film, SvgMovesByItself) {
+TEST(FilmCanvas, SvgMovesByItself) {
   const std::vector<Packing<2>> packings{disk_at({{3, 0}}), disk_at({{4, 0}}), disk_at({{5, 0}})};
   const std::string text = film(FilmKind::svg, series_of(packings));
   EXPECT_EQ(
