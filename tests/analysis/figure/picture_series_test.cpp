@@ -144,5 +144,21 @@ TEST(FilmCanvas, SvgMovesByItself) {
   EXPECT_TRUE(text.ends_with("</svg>\n"));
 }
 
+// What rests is written once.
+TEST(FilmCanvas, UsesAGroupAgain) {
+  FilmCanvas canvas(FilmKind::svg, {{100, 100}}, 3, 5);
+  for (int k = 0; k < 3; ++k) {
+    canvas.begin_frame();
+    canvas.begin_group("walls");
+    for (int n = 0; n < 4; ++n) canvas.rectangle({10.0 * n + (k == 2 ? 1 : 0), 0, 5, 5}, {kWall, std::nullopt});
+    canvas.end_group();
+    canvas.end_frame();
+  }
+  const std::string text = canvas.finish();
+  EXPECT_EQ(count(text, "<g id=\"walls"), 2u);
+  EXPECT_EQ(count(text, "<use href=\"#walls\"/>"), 1u);
+  EXPECT_LT(text.find("<use"), text.find("x=\"11\""));
+}
+
 }  // namespace
 }  // namespace isostat
