@@ -153,6 +153,8 @@ State<Disks> state_from_file(const Scene& scene, std::uint64_t seed) {
     throw InputError(path, 0, "step.fraction", real_text(scene.step.fraction),
                      "unstable for the smallest grain of this file, diameter " + real_text(smallest) + " a; below " +
                          real_text(bound));
+  for (const SceneConflict& c : wall_motion_conflicts(scene, state.time_step, smallest))
+    throw InputError("scene", 0, c.key, c.value, c.rule);
   if (state.packing.cell) state.cell_motion.reference_length = state.packing.cell->length;
   return state;
 }
