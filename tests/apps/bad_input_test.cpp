@@ -75,7 +75,7 @@ TEST_F(BadInput, DamagedStates) {
   std::string later = bytes;
   const std::string present = "format version " + std::to_string(kStateFormatVersion);
   later.replace(later.find(present), present.size(), "format version 9");
-  refused("later", later, present);
+  refused("later", later, "this isostat reads format version");
 }
 
 // An isolated packing: what needs no cell runs, what needs one says so.
