@@ -93,7 +93,7 @@ void Candidates::build(const GrainStore& store, const Lists& lists, const Cell& 
                        SeparationKernel separation, double skin, const std::vector<WallSpring>& walls) {
   packs_.clear(), a_.clear(), b_.clear(), of_lane_.clear();
   stiffness_.clear(), offset_x_.clear(), offset_y_.clear(), spring_.clear();
-  most_rows_ = pairs_ = 0;
+  most_rows_ = pairs_ = 0, slots_ = store.slots();
   const auto add = [&](const Near& near, const Vec2& offset, double spring) {
     const std::size_t before = near_.size();
     look(store, near, offset, skin);
