@@ -4,9 +4,17 @@
 #pragma once
 #include "analysis/input.hpp"
 #include "dem/state/packing.hpp"
+#include "dem/triangles/triangles.hpp"
+#include "geometry/triangle_signs.hpp"
 
 namespace isostat {
 
 std::int64_t rational_rank(const Packing<2>& packing, NetworkLaw law, bool cell_free);
+
+// The same for grains of triangles, none held: overlaps are looked for among all pairs and images, and a pair of grains
+// has one row for all of them, with friction a second one at the mean of the corners of each overlap, weighted by
+// areas.
+std::int64_t rational_rank(const TrianglePacking& packing, const std::vector<Triangle>& triangles, NetworkLaw law,
+                           bool cell_free);
 
 }  // namespace isostat
