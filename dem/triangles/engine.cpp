@@ -16,6 +16,15 @@ constexpr double kMostMove = 0.3;             // [smallest circle of a triangle]
 constexpr double kMostOverlap = 0.5;          // [area of the smaller triangle] beyond, grains pass through each other
 constexpr std::size_t kBlocksPerChunk = 512;  // 4096 grains, as the lists
 
+// Of a packing that no solver has touched they are those of its overlaps.
+std::vector<PairMemory<GrainHistory>> springs_of(const State<TriangleGrains>& state) {
+  std::vector<PairMemory<GrainHistory>> springs = state.memory.pairs;
+  if (!springs.empty() || !state.memory.half_velocity.empty()) return springs;
+  for (const Overlap& o : state.packing.overlaps)
+    if (o.tangential_force != 0) springs.push_back({o.grain_i, o.grain_j, o.shift, {o.tangential_force}});
+  return springs;
+}
+
 }  // namespace
 
 TriangleEngine::TriangleEngine(const State<TriangleGrains>& state, const CellControl& control,
@@ -51,7 +60,7 @@ void TriangleEngine::load(const State<TriangleGrains>& state) {
   if (state.memory.lists.inner_position.empty()) store_.grow_circles();
   lists_.emplace(store_.size(), 0.0, GrainPairs{});
   if (state.memory.lists.inner_position.empty())
-    build_lists(p.cell, state.memory.pairs);
+    build_lists(p.cell, springs_of(state));
   else
     restore_lists(state);
 }

@@ -81,6 +81,20 @@ std::optional<CrossedEdges> crossed_edges(const TriangleSigns& signs) {
   return count == 2 ? std::optional(found) : std::nullopt;
 }
 
+// The two edges of a triangle that cross edges of the other (type iii); first the one that faces more along `towards`.
+struct EdgePair {
+  int first = -1, second = -1;
+};
+template <class Crosses>
+EdgePair crossed_twice(const Crosses& crosses, const Triangle& t, const Vec2& towards) {
+  EdgePair found;
+  for (int e = 0; e < 3; ++e)
+    if (crosses(e, 0) || crosses(e, 1) || crosses(e, 2)) (found.first < 0 ? found.first : found.second) = e;
+  if (dot(outward(edge_of(t, found.second)) - outward(edge_of(t, found.first)), towards) > 0)
+    std::swap(found.first, found.second);
+  return found;
+}
+
 }  // namespace
 
 PaperContact paper_contact(const Triangle& a, const Triangle& b, double modulus) {
@@ -111,17 +125,16 @@ PaperContact paper_contact(const Triangle& a, const Triangle& b, double modulus)
       break;
     }
     case OverlapType::iii: {
-      const TriangleOverlap o = triangle_overlap(a, b);
-      const double force = 0.5 * modulus * o.area;
-      for (int k = 0; k < 2; ++k) {  // S1S2 on an edge of A, S1S4 on one of B
-        const OverlapChord& chord = o.chord_store[idx(k)];
-        const Vec2 middle = o.origin + chord.start + 0.5 * chord.along;
-        Vec2 normal = outward(chord.along);
-        // Out of A on its own edge points into B: A is pushed back from there, and away from B.
-        const Vec2 inside = k == 0 ? centroid_of(a) - middle : middle - centroid_of(b);
-        if (dot(normal, inside) < 0) normal = -1.0 * normal;
-        sum.add(force * normal, middle);
-      }
+      // S1 is where those edges cross that push the triangles apart most: whichever of them is called A, and wherever
+      // its corners begin.
+      const Vec2 apart = centroid_of(a) - centroid_of(b);
+      const EdgePair of_a = crossed_twice([&](int e, int f) { return signs.cross(e, f); }, a, -1.0 * apart);
+      const EdgePair of_b = crossed_twice([&](int f, int e) { return signs.cross(e, f); }, b, apart);
+      const Vec2 s1 = crossing(a, of_a.first, b, of_b.first), s2 = crossing(a, of_a.first, b, of_b.second),
+                 s4 = crossing(a, of_a.second, b, of_b.first);
+      const double force = 0.5 * modulus * triangle_overlap(a, b).area;
+      sum.add(-force * outward(edge_of(a, of_a.first)), 0.5 * (s1 + s2));
+      sum.add(force * outward(edge_of(b, of_b.first)), 0.5 * (s1 + s4));
       break;
     }
     case OverlapType::iv:

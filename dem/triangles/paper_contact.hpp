@@ -3,7 +3,8 @@
 //
 //   i        Y min(D, A - D), D the part that the edge of one triangle cuts off the other, of area A   (Eq. 21)
 //   ii       Y times the sum of both such parts, each on its side of S1S2                             (Eq. 22)
-//   iii      two forces Y/2 times the area of the overlap, on S1S2 and on S1S4                        (Eq. 23)
+//   iii      two forces Y/2 times the area of the overlap, on S1S2 and on S1S4                        (Eq. 23);
+//            S1 is the corner from where they push the two apart most
 //   iv, v    one force of type i for each edge that crosses the other triangle twice
 // Torques are (H - G) x F (Eqs. 19, 20 print the arm with the other sign). A pair in special position (a corner on an
 // edge) takes the limit of i and ii, Y times the area along its gradient; one triangle inside the other meets no force.

@@ -3,6 +3,7 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -10,7 +11,12 @@
 #include "dem/disks/engine.hpp"
 #include "dem/disks/physical_hash.hpp"
 #include "dem/files/state_file.hpp"
+#include "dem/state/balance.hpp"
+#include "dem/triangles/certificate.hpp"
+#include "dem/triangles/engine.hpp"
+#include "dem/triangles/physical_hash.hpp"
 #include "tests/support/disk_states.hpp"
+#include "tests/support/moving_triangles.hpp"
 
 namespace isostat::systems {
 
@@ -51,6 +57,18 @@ struct Fixture<Disks> {
     return list;
   }
 
+  // The richest: thousands of bodies take their time.
+  static std::vector<Variant<Disks>> large(int count) {
+    std::vector<Variant<Disks>> list = variants(count);
+    std::erase_if(list, [](const Variant<Disks>& v) { return !v.name.starts_with("rolling, adhesion"); });
+    return list;
+  }
+  static int chunks(const State<Disks>& s) { return DiskEngine::Lists::chunk_count(s.packing.bodies.size()); }
+  // Something of all that the variant is there for has happened.
+  static bool is_lively(const Variant<Disks>&, const State<Disks>& end) { return !end.packing.links.empty(); }
+  // No force from outside.
+  static bool closed(const State<Disks>&) { return true; }
+
   // Turned about the origin by an angle; springs and spins of the plane turn with the bodies.
   static State<Disks> turned(State<Disks> s, double angle) {
     const double c = std::cos(angle), t = std::sin(angle);
@@ -60,10 +78,151 @@ struct Fixture<Disks> {
     s.memory = {};
     return s;
   }
-  static double inertia(const State<Disks>& s, std::size_t k) { return s.packing.bodies.inertia[k]; }
+  static std::vector<BodyLoad> loads(const State<Disks>& s) { return net_loads(s.packing); }
+  static double largest_force(const State<Disks>& s) {
+    double scale = 0;
+    for (const Link<2>& l : s.packing.links) scale = std::max(scale, std::abs(l.normal_force));
+    return scale;
+  }
+  // With the velocities of the same instant as the positions it is kept to the order of the step.
+  static double angular_tolerance(const State<Disks>&) { return 1e-3; }
 };
 
-using Systems = ::testing::Types<Disks>;
+template <>
+struct Fixture<TriangleGrains> {
+  using Moving = oracle::MovingTriangles;
+
+  static Variant<TriangleGrains> variant(const std::string& name, const Moving& moving, bool cell = true) {
+    Variant<TriangleGrains> v{name, moving_triangles(moving), {}};
+    if (!cell) v.state.packing.cell.reset(), v.state.cell_motion = {};
+    return v;
+  }
+  static void free_cell(Variant<TriangleGrains>& v) {
+    v.control.stress = isotropic(2e3), v.control.max_strain_rate = 20;
+    v.control.inertia = 0.3 * oracle::total_mass(v.state);
+  }
+  static TriangleLawScene failing(BeamFailure failure) {
+    TriangleLawScene law;
+    law.failure = failure, law.friction = 0.3;
+    law.limit_tension = failure == BeamFailure::break_ ? 400 : 200;
+    law.limit_bending = failure == BeamFailure::break_ ? 12 : 6;
+    return law;
+  }
+  // A box as wide as the grains want, shaken up and down.
+  static Moving shaken(int count, ContainerWalls walls) {
+    Moving m;
+    m.count = count, m.gravity = 981;
+    m.container.shape = ContainerShape::box, m.container.walls = walls;
+    m.container.width = 0.3 * std::sqrt(count), m.container.height = 0.6 * std::sqrt(count);
+    m.motion.vibration_amplitude = 0.05, m.motion.vibration_frequency = 200;
+    return m;
+  }
+
+  // Both laws and integrators, friction, dampers or none, beams that fail; in a fixed cell, in one that moves, without
+  // a cell and between both kinds of walls.
+  static std::vector<Variant<TriangleGrains>> variants(int count) {
+    Moving plain;
+    plain.count = count;
+    Moving gear = plain, undamped = plain, paper = plain, friction = plain, mixed = plain;
+    gear.integrator = Integrator::gear;
+    undamped.law.damping = 0;
+    paper.law.contact = ContactLaw::paper;
+    friction.law.friction = 0.3;
+    mixed.law.friction = 0.3, mixed.shapes = "square,L,polygon5";
+    std::vector<Variant<TriangleGrains>> list;
+    for (const bool cell : {true, false}) {
+      const std::string room = cell ? ", fixed cell" : ", no cell";
+      list.push_back(variant("frictionless" + room, plain, cell));
+      list.push_back(variant("undamped" + room, undamped, cell));
+      list.push_back(variant("friction" + room, friction, cell));
+      list.push_back(variant("paper" + room, paper, cell));
+      list.push_back(variant("mixed shapes" + room, mixed, cell));
+      for (const BeamFailure failure : {BeamFailure::break_, BeamFailure::yield}) {
+        Moving m = plain;
+        m.law = failing(failure);
+        list.push_back(variant((failure == BeamFailure::break_ ? "breaking" : "yielding") + room, m, cell));
+        m.integrator = Integrator::gear;
+        list.push_back(variant((failure == BeamFailure::break_ ? "breaking, Gear" : "yielding, Gear") + room, m, cell));
+      }
+      Moving m = gear;
+      list.push_back(variant("Gear" + room, m, cell));
+      m.law.friction = 0.3;
+      list.push_back(variant("Gear, friction" + room, m, cell));
+      m.law.contact = ContactLaw::paper, m.law.friction = 0;
+      list.push_back(variant("Gear, paper" + room, m, cell));
+    }
+    for (const Moving& m : {plain, undamped, friction, paper, mixed}) {
+      list.push_back(variant("free cell", m));
+      list.back().name += ", " + std::to_string(list.size());
+      free_cell(list.back());
+    }
+    for (const ContainerWalls walls : {ContainerWalls::smooth, ContainerWalls::grains}) {
+      const std::string room = walls == ContainerWalls::smooth ? ", smooth walls" : ", walls of grains";
+      Moving m = shaken(count, walls);
+      m.law.friction = 0.3;
+      list.push_back(variant("shaken" + room, m));
+      m.integrator = Integrator::gear;
+      list.push_back(variant("shaken, Gear" + room, m));
+      m = shaken(count, walls), m.law = failing(BeamFailure::break_);
+      list.push_back(variant("shaken, breaking" + room, m));
+      m = shaken(count, walls), m.law.contact = ContactLaw::paper;
+      list.push_back(variant("shaken, paper" + room, m));
+    }
+    return list;
+  }
+
+  static std::vector<Variant<TriangleGrains>> large(int count) {
+    Moving mixed;
+    mixed.count = count, mixed.shapes = "square,L", mixed.law = failing(BeamFailure::break_),
+    mixed.solid_fraction = 0.4;
+    Moving yielding = shaken(count, ContainerWalls::grains), gear = shaken(count, ContainerWalls::smooth);
+    yielding.law = failing(BeamFailure::yield);
+    gear.integrator = Integrator::gear;
+    for (Moving* m : {&mixed, &yielding, &gear}) m->solid_fraction = 0.3;  // room is found soon
+    std::vector<Variant<TriangleGrains>> list{variant("breaking, free cell", mixed),
+                                              variant("yielding, shaken, walls of grains", yielding),
+                                              variant("Gear, shaken, smooth walls", gear)};
+    free_cell(list.front());
+    return list;
+  }
+  static int chunks(const State<TriangleGrains>& s) {
+    return TriangleEngine::Lists::chunk_count(s.packing.grains.size());
+  }
+  static bool is_lively(const Variant<TriangleGrains>& v, const State<TriangleGrains>& end) {
+    const bool spring = std::any_of(end.memory.pairs.begin(), end.memory.pairs.end(),
+                                    [](const auto& pair) { return pair.history.tangential_force != 0; });
+    const bool broken = end.packing.grains.size() > v.state.packing.grains.size();
+    return end.packing.overlaps.size() > 3 && spring == (end.law.friction > 0) &&
+           !end.packing.events.empty() == (end.law.failure != BeamFailure::none) &&
+           broken == (end.law.failure == BeamFailure::break_);
+  }
+  static bool closed(const State<TriangleGrains>& s) {
+    return count_free(s.packing) == s.packing.grains.size() && s.scene.gravity == 0;
+  }
+
+  static State<TriangleGrains> turned(State<TriangleGrains> s, double angle) {
+    const double c = std::cos(angle), t = std::sin(angle);
+    const auto turn = [c, t](Vec2& v) { v = {{c * v[0] - t * v[1], t * v[0] + c * v[1]}}; };
+    for (Vec2& r : s.packing.bodies.position) turn(r);
+    for (Vec2& v : s.packing.bodies.velocity) turn(v);
+    for (double& a : s.packing.angle) a += angle;
+    s.memory = {};
+    return s;
+  }
+  static std::vector<BodyLoad> loads(const State<TriangleGrains>& s) { return net_loads(s.packing, s.law, 0); }
+  static double largest_force(const State<TriangleGrains>& s) {
+    double scale = 0;
+    for (const Link<2>& l : s.packing.links) scale = std::max(scale, std::abs(l.normal_force));
+    for (const Overlap& o : s.packing.overlaps) scale = std::max(scale, o.normal_force);
+    return scale;
+  }
+  // Verlet's dampers balance exactly; Gear corrects positions and velocities by different parts of an error.
+  static double angular_tolerance(const State<TriangleGrains>& s) {
+    return s.scene.step.integrator == Integrator::gear ? 1e-5 : 1e-12;
+  }
+};
+
+using Systems = ::testing::Types<Disks, TriangleGrains>;
 
 template <class System>
 State<System> marched(State<System> s, const CellControl& control, std::int64_t steps, SolverOptions options = {}) {
