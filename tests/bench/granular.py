@@ -2,12 +2,12 @@
 """What the studies of hopper, vibrated hopper and drum say (docs/measured/granular.md).
 
     isostat study data/studies/hopper.toml -o out/hopper
-    ... and hopper-disks, hopper-vibrated, hopper-vibrated-disks, drum, drum-disks, each in out/NAME
+    ... and hopper-disks, hopper-waves, hopper-vibrated, hopper-vibrated-disks, drum, drum-disks, each in out/NAME
     granular.py out [--results docs/measured/results]
 
 Reads the folders of those studies that are there, their run.json and series alone. Writes one row a run
-(granular_hopper_runs.csv, granular_drum_runs.csv), means in the form of a study.csv, so that `isostat plot --what study`
-draws them (granular_hopper.csv, granular_vibrated.csv, granular_drum.csv), and thinned series (granular_series_*.csv);
+(granular_hopper_runs.csv, granular_drum_runs.csv), means in the form of a study.csv, for `isostat plot --what study`
+(granular_hopper.csv, granular_vibrated.csv, granular_waves.csv, granular_drum.csv), and thinned series (granular_series_*.csv);
 prints means and fits. All in cm, g, s: disks are scaled by their a and by 981 cm/s^2.
 """
 import argparse
@@ -58,7 +58,7 @@ def crossing(t, y, level):
 
 
 def flow(series, disks):
-    """Flow rate [grains/s] while the part START to END of the grains goes below the outlet, or until what had gone before a
+    """Flow rate [grains/s] while the part START to END of the grains goes below the outlet, or what had gone before a
     clog, if that is at least twice START; grains kept; time from the first grain to the last [s]."""
     time, _ = scale(disks, A_HOPPER)
     t, above = [x * time for x in series["t"]], series["grains_above"]
@@ -157,6 +157,44 @@ def hopper(runs, results):
         edge = -a / b
         print(f"Beverloo {grains}: rate = C (D - D0)^1.5, C = {b ** 1.5:.2f} +- {1.5 * b ** .5 * db:.2f}, C/sqrt(g) "
               f"{b ** 1.5 / math.sqrt(G):.3f} D0 = {edge:.3f} cm, chi2 {chi2:.1f} of {len(points)} points")
+
+
+def without_mean(values, half):
+    """Less the running mean over 2 half + 1 rows; shorter by half at both ends."""
+    return [values[k] - statistics.mean(values[k - half:k + half + 1]) for k in range(half, len(values) - half)]
+
+
+def correlation(a, b, lag):
+    """Of b, lag rows later than a."""
+    pairs = [(a[k], b[k + lag]) for k in range(max(0, -lag), min(len(a), len(a) - lag))]
+    return sum(x * y for x, y in pairs) / math.sqrt(sum(x * x for x, _ in pairs) * sum(y * y for _, y in pairs))
+
+
+def waves(out, results):
+    """Correlation of the solid fractions of a slice and of the next one above it, a lag later: a wave that rises has a
+    peak at a positive lag, structure that sinks with the grains at a negative one."""
+    groups = {}
+    for run, series in runs_of(os.path.join(out, "hopper-waves")):
+        time, _ = scale(run["row"] == "disks", A_HOPPER)
+        t, above = [x * time for x in series["t"]], series["grains_above"]
+        flowing = [k for k in range(len(t)) if 0.5 * above[0] <= above[k] <= 0.95 * above[0]]
+        step = (t[flowing[-1]] - t[flowing[0]]) / (len(flowing) - 1)
+        slices = [[series[f"Phi_{n:02}"][k] for k in flowing] for n in range(2, 7)]
+        slices = [without_mean(s, round(0.03 / step)) for s in slices]
+        for lag in range(-round(0.06 / step), round(0.06 / step) + 1):
+            values = [correlation(a, b, lag) for a, b in zip(slices, slices[1:])]
+            groups.setdefault((run["row"], round(lag * step, 4)), []).append(statistics.mean(values))
+    if not groups:
+        return
+    rows = []
+    for (grains, lag), values in sorted(groups.items()):
+        mean, error = mean_error(values)
+        rows.append({"row": f"{grains}{lag:g}", "grains": grains, "lag": lag, "runs": len(values), "n": len(values),
+                     "correlation": mean, "correlation_se": error})
+    write(os.path.join(results, "granular_waves.csv"), list(rows[0]), rows)
+    for grains in ("squares", "disks"):
+        for r in sorted((r for r in rows if r["grains"] == grains), key=lambda r: -r["correlation"])[:3]:
+            print(f"waves {grains}: correlation {text(r['correlation'])} +- {text(r['correlation_se'])} at {r['lag']} s")
 
 
 def drum_run(run, series, disks):
@@ -272,6 +310,7 @@ def main():
     runs = list(hopper_runs(options.out))
     if runs:
         hopper(runs, options.results)
+    waves(options.out, options.results)
     drum(options.out, options.results)
     series_files(options.out, options.results)
 
