@@ -2,12 +2,12 @@
 """What the studies of hopper, vibrated hopper and drum say (docs/measured/granular.md).
 
     isostat study data/studies/hopper.toml -o out/hopper
-    ... and hopper-disks, hopper-vibrated, hopper-vibrated-disks, drum, drum-disks, each in out/NAME
+    ... and hopper-disks, hopper-waves, hopper-vibrated, hopper-vibrated-disks, drum, drum-disks, each in out/NAME
     granular.py out [--results docs/measured/results]
 
 Reads the folders of those studies that are there, their run.json and series alone. Writes one row a run
-(granular_hopper_runs.csv, granular_drum_runs.csv), means in the form of a study.csv, so that `isostat plot --what study`
-draws them (granular_hopper.csv, granular_vibrated.csv, granular_drum.csv), and thinned series (granular_series_*.csv);
+(granular_hopper_runs.csv, granular_drum_runs.csv), means in the form of a study.csv, for `isostat plot --what study`
+(granular_hopper.csv, granular_vibrated.csv, granular_waves.csv, granular_drum.csv), and thinned series (granular_series_*.csv);
 prints means and fits. All in cm, g, s: disks are scaled by their a and by 981 cm/s^2.
 """
 import argparse
@@ -21,7 +21,7 @@ import statistics
 
 G = 981.0
 A_HOPPER, A_DRUM = 0.226, 0.158  # [cm] largest disk: area of the largest square
-START, END = 0.1, 0.7            # part of the mass between which a flow rate is taken
+START, END = 0.1, 0.7            # part of the grains between which a flow rate is taken
 TURNED = 40.0                    # [degrees] of the drum before its bed is taken to be steady
 DROP = 1.0                       # [degrees] least fall of the centre of mass that counts as an avalanche
 
@@ -57,35 +57,35 @@ def crossing(t, y, level):
     return None
 
 
-def flow(series, disks, total):
-    """Flow rate [g/s] while the part START to END of the mass leaves, or to what had left before a clog if that is at
-    least twice START; grains that left; end of flow - start of flow [s]."""
-    time, mass = scale(disks, A_HOPPER)
-    t, m = [x * time for x in series["t"]], [x * mass for x in series["mass_left"]]
-    end = min(END * total, m[-1])
+def flow(series, disks):
+    """Flow rate [grains/s] while the part START to END of the grains goes below the outlet, or what had gone before a
+    clog, if that is at least twice START; grains kept; time from the first grain to the last [s]."""
+    time, _ = scale(disks, A_HOPPER)
+    t, above = [x * time for x in series["t"]], series["grains_above"]
+    total = above[0]
+    out = [total - x for x in above]
+    end = min(END * total, out[-1])
     rate = None
     if end >= 2 * START * total:
-        rate = (end - START * total) / (crossing(t, m, end) - crossing(t, m, START * total))
-    first = crossing(t, m, 1e-9)
-    return rate, int(series["grains_left"][-1]), crossing(t, m, m[-1] * (1 - 1e-12)) - first if first else 0.0
+        rate = (end - START * total) / (crossing(t, out, end) - crossing(t, out, START * total))
+    return rate, int(above[-1]), crossing(t, out, out[-1]) - crossing(t, out, 1) if out[-1] > 1 else 0.0
 
 
 def hopper_runs(out):
     for study in ("hopper", "hopper-disks", "hopper-vibrated", "hopper-vibrated-disks"):
         disks = study.endswith("disks")
-        total = 9.33 if not disks else 400 * math.pi / 4 * 7 / 12 * A_HOPPER ** 2  # [g] expected
         for run, series in runs_of(os.path.join(out, study)):
             name = run["row"]
             opening = float(re.search(r"opening([\d.]+)", name)[1]) * (A_HOPPER if disks else 1)
             shake = re.match(r"(\d+)Hz-([\d.]+)g", name)
-            rate, left, duration = flow(series, disks, total)
+            rate, kept, duration = flow(series, disks)
             grains = "disks" if disks else "squares"
             if name.startswith("frictionless"):
                 grains = "frictionless disks"
             yield {"study": study, "grains": grains, "opening": round(opening, 2),
                    "frequency": float(shake[1]) if shake else 0.0, "acceleration": float(shake[2]) if shake else 0.0,
                    "seed": int(run["seed"]), "end": "empty" if run["status"] == "ok" else run["reason"].split(":")[0],
-                   "left": left, "duration": duration, "rate": rate, "cpu_seconds": float(run["cpu_seconds"])}
+                   "kept": kept, "duration": duration, "rate": rate, "cpu_seconds": float(run["cpu_seconds"])}
 
 
 def mean_error(values):
@@ -131,12 +131,12 @@ def hopper(runs, results):
     means = []
     for key, group in grouped(runs, ("study", "grains", "opening", "frequency", "acceleration")).items():
         rate, error = mean_error([r["rate"] for r in group])
-        left, left_error = mean_error([float(r["left"]) for r in group])
+        kept, kept_error = mean_error([float(r["kept"]) for r in group])
         ends = [r["end"] for r in group]
         means.append(dict(zip(("study", "grains", "opening", "frequency", "acceleration"), key),
                           row="-".join(map(str, key)), runs=len(group), n=len(group), empty=ends.count("empty"),
-                          clogged=ends.count("clogged"), rate=rate, rate_se=error, left=left, left_se=left_error))
-    tail = ["runs", "n", "empty", "clogged", "rate", "rate_se", "left", "left_se"]
+                          clogged=ends.count("clogged"), rate=rate, rate_se=error, kept=kept, kept_se=kept_error))
+    tail = ["runs", "n", "empty", "clogged", "rate", "rate_se", "kept", "kept_se"]
     still = [m for m in means if m["study"] in ("hopper", "hopper-disks")]
     write(os.path.join(results, "granular_hopper.csv"), ["row", "grains", "opening"] + tail, still)
     shaken = [m for m in means if "vibrated" in m["study"]]
@@ -145,7 +145,7 @@ def hopper(runs, results):
               ["row", "grains", "opening", "frequency", "acceleration"] + tail, shaken)
     for m in means:
         print(f"{m['row']:50} n {m['n']} empty {m['empty']} clogged {m['clogged']} rate {text(m['rate'])} +- "
-              f"{text(m['rate_se'])} left {text(m['left'])} +- {text(m['left_se'])}")
+              f"{text(m['rate_se'])} kept {text(m['kept'])} +- {text(m['kept_se'])}")
     for grains in sorted({m["grains"] for m in still}):
         points = [m for m in still if m["grains"] == grains and m["rate"] and m["rate_se"] and m["empty"] == m["n"]]
         if len(points) < 3:
@@ -157,6 +157,44 @@ def hopper(runs, results):
         edge = -a / b
         print(f"Beverloo {grains}: rate = C (D - D0)^1.5, C = {b ** 1.5:.2f} +- {1.5 * b ** .5 * db:.2f}, C/sqrt(g) "
               f"{b ** 1.5 / math.sqrt(G):.3f} D0 = {edge:.3f} cm, chi2 {chi2:.1f} of {len(points)} points")
+
+
+def without_mean(values, half):
+    """Less the running mean over 2 half + 1 rows; shorter by half at both ends."""
+    return [values[k] - statistics.mean(values[k - half:k + half + 1]) for k in range(half, len(values) - half)]
+
+
+def correlation(a, b, lag):
+    """Of b, lag rows later than a."""
+    pairs = [(a[k], b[k + lag]) for k in range(max(0, -lag), min(len(a), len(a) - lag))]
+    return sum(x * y for x, y in pairs) / math.sqrt(sum(x * x for x, _ in pairs) * sum(y * y for _, y in pairs))
+
+
+def waves(out, results):
+    """Correlation of the solid fractions of a slice and of the next one above it, a lag later: a wave that rises has a
+    peak at a positive lag, structure that sinks with the grains at a negative one."""
+    groups = {}
+    for run, series in runs_of(os.path.join(out, "hopper-waves")):
+        time, _ = scale(run["row"] == "disks", A_HOPPER)
+        t, above = [x * time for x in series["t"]], series["grains_above"]
+        flowing = [k for k in range(len(t)) if 0.5 * above[0] <= above[k] <= 0.95 * above[0]]
+        step = (t[flowing[-1]] - t[flowing[0]]) / (len(flowing) - 1)
+        slices = [[series[f"Phi_{n:02}"][k] for k in flowing] for n in range(2, 7)]
+        slices = [without_mean(s, round(0.03 / step)) for s in slices]
+        for lag in range(-round(0.06 / step), round(0.06 / step) + 1):
+            values = [correlation(a, b, lag) for a, b in zip(slices, slices[1:])]
+            groups.setdefault((run["row"], round(lag * step, 4)), []).append(statistics.mean(values))
+    if not groups:
+        return
+    rows = []
+    for (grains, lag), values in sorted(groups.items()):
+        mean, error = mean_error(values)
+        rows.append({"row": f"{grains}{lag:g}", "grains": grains, "lag": lag, "runs": len(values), "n": len(values),
+                     "correlation": mean, "correlation_se": error})
+    write(os.path.join(results, "granular_waves.csv"), list(rows[0]), rows)
+    for grains in ("squares", "disks"):
+        for r in sorted((r for r in rows if r["grains"] == grains), key=lambda r: -r["correlation"])[:3]:
+            print(f"waves {grains}: correlation {text(r['correlation'])} +- {text(r['correlation_se'])} at {r['lag']} s")
 
 
 def drum_run(run, series, disks):
@@ -243,7 +281,7 @@ def thin(source, target, columns, time, every):
     series = read_series(source)
     names = [c for c in columns if c in series]
     with open(target, "w") as file:
-        file.write(",".join(["t"] + names) + "\n")
+        file.write(",".join(["time"] + names) + "\n")
         for k in range(0, len(series["t"]), every):
             file.write(",".join([f"{series['t'][k] * time:.4g}"] + [f"{series[n][k]:.4g}" for n in names]) + "\n")
     print(target)
@@ -272,6 +310,7 @@ def main():
     runs = list(hopper_runs(options.out))
     if runs:
         hopper(runs, options.results)
+    waves(options.out, options.results)
     drum(options.out, options.results)
     series_files(options.out, options.results)
 
