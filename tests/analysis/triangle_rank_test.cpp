@@ -102,6 +102,7 @@ TEST(TriangleRank, WhatIsHeldHasNoColumns) {
 std::string random_grains(int trial) {
   std::mt19937_64 random(static_cast<std::uint64_t>(trial) + 3);
   const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<>(a, b)(random); };
+  const auto dyadic = [](double v) { return std::ldexp(std::round(std::ldexp(v, 12)), -12); };  // images are then exact
   const bool periodic = trial % 2 == 1;
   const int grains = 3 + trial % 5;
   std::string text = periodic ? "cell 2.25 2.125\n" : "", beams;
@@ -111,7 +112,7 @@ std::string random_grains(int trial) {
     double cx[4], cy[4];
     for (int k = 0; k < 4; ++k) {
       const double a = turn + k * 1.5707963267948966 + uniform(-0.3, 0.3), r = uniform(0.5, 0.7);
-      cx[k] = x + r * std::cos(a), cy[k] = y + r * std::sin(a);
+      cx[k] = dyadic(x + r * std::cos(a)), cy[k] = dyadic(y + r * std::sin(a));
     }
     for (int half = 0; half < (g % 3 == 2 ? 1 : 2); ++half) {
       std::snprintf(line, sizeof line, "triangle %d %d %.17g %.17g %.17g %.17g %.17g %.17g\n", 2 * g + half, g, cx[0],
@@ -127,7 +128,7 @@ std::string random_grains(int trial) {
 
 TEST(TriangleRank, EqualsRationalElimination) {
   int links = 0;
-  for (int trial = 0; trial < 40; ++trial) {
+  for (int trial = 0; trial < 16; ++trial) {
     const TriangleNetworkFile file = parse_triangle_network(random_grains(trial), "t.net");
     const TrianglePacking packing = file.packing;
     const std::vector<Triangle> triangles = file.triangles;
@@ -143,14 +144,14 @@ TEST(TriangleRank, EqualsRationalElimination) {
         EXPECT_EQ(std::count(dependent.begin(), dependent.end(), 1), r.floppy);
       }
   }
-  EXPECT_GT(links, 200);
+  EXPECT_GT(links, 80);
 }
 
 // On a lattice of aligned squares, corners lie on edges and edges on edges.
 TEST(TriangleRank, AlignedSquaresOnALattice) {
-  std::string text = "cell 3 3\n";
-  for (int g = 0; g < 9; ++g) {
-    const double x = g % 3, y = static_cast<double>(g / 3);
+  std::string text = "cell 2 2\n";
+  for (int g = 0; g < 4; ++g) {
+    const double x = g % 2, y = static_cast<double>(g / 2);
     const double cx[] = {x - 0.625, x + 0.625, x + 0.625, x - 0.625},
                  cy[] = {y - 0.625, y - 0.625, y + 0.625, y + 0.625};
     for (std::size_t k = 0; k < 4; ++k) {
@@ -183,10 +184,10 @@ TEST(TriangleRank, Clusters) {
   EXPECT_EQ(found.cluster_of_grain[0], 0);
   EXPECT_EQ(found.cluster_of_grain[8], -1);
   EXPECT_EQ(found.cluster_of_link.back(), -1);  // the overlap
-  // Three overlaps hold a grain in a corner of another, friction on two does.
-  const std::string corner =
-      "triangle 0 0 0 0 4 0 0 -1\ntriangle 1 0 0 0 0 4 -1 0\nbeam 0 1\ntriangle 2 1 -.1 -.05 1 -.02 .01 1\n";
-  EXPECT_EQ(rigid_clusters(input_of(corner).network(), NetworkLaw::frictionless, false).clusters.size(), 0u);
+  // A bar on two squares that a beam joins: with friction it cannot move against them.
+  const std::string bridge = square(0, 0, 0) + square(1, 3, 0) + "beam 0 4\ntriangle 90 2 -1 .45 4 .48 1.5 2\n";
+  EXPECT_EQ(rigid_clusters(input_of(bridge).network(), NetworkLaw::frictionless, false).clusters[0].grains, 2);
+  EXPECT_EQ(rigid_clusters(input_of(bridge).network(), NetworkLaw::friction, false).clusters[0].grains, 3);
 }
 
 TEST(TriangleRank, SectionsAndRefusals) {

@@ -2,6 +2,8 @@
 
 #include <gmpxx.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -94,12 +96,14 @@ struct RationalTriangle {
       centre = {centre.x + corner[k].x / 3, centre.y + corner[k].y / 3};
     }
   }
-  bool on_an_edge(const RationalPoint& p, const RationalPoint& q) const {
+  // Part of one of its edges that the side from p to q is; 0 if it lies on none.
+  mpq_class part_of_edge(const RationalPoint& p, const RationalPoint& q) const {
     for (std::size_t k = 0; k < 3; ++k) {
-      const RationalPoint u = minus(corner[(k + 1) % 3], corner[k]);
-      if (cross(u, minus(p, corner[k])) == 0 && cross(u, minus(q, corner[k])) == 0) return true;
+      const RationalPoint u = minus(corner[(k + 1) % 3], corner[k]), side = minus(q, p);
+      if (cross(u, minus(p, corner[k])) == 0 && cross(u, minus(q, corner[k])) == 0)
+        return abs((side.x * u.x + side.y * u.y) / (u.x * u.x + u.y * u.y));
     }
-    return false;
+    return 0;
   }
 };
 
@@ -159,20 +163,28 @@ std::int64_t rational_rank(const TrianglePacking& p, const std::vector<Triangle>
           if (grain[i] > grain[j] || (grain[i] == grain[j] && s <= back)) continue;
           Triangle image = triangles[j];
           for (Vec2& c : image.corner) c += Vec2{{offset(s, 0).get_d(), offset(s, 1).get_d()}};
+          double apart = 0, extent = 0;  // far ones cost more than they are worth
+          for (int k = 0; k < 2; ++k) apart = std::max(apart, std::abs(image.corner[0][k] - triangles[i].corner[0][k]));
+          for (const Triangle* t : {&triangles[i], &triangles[j]})
+            for (const Vec2& c : t->corner) extent = std::max(extent, norm(c - t->corner[0]));
+          if (apart > 2 * extent) continue;
           const oracle::RationalOverlap o = oracle::rational_overlap(triangles[i], image);
           if (!(o.area > 0)) continue;
           const RationalTriangle a(triangles[i], 0, 0), b(image, 0, 0);
           Load on_a{i, a.centre, 0, 0, 0}, on_b{j, b.centre, 0, 0, 0};
           Overlapping::Pair pair{i, j, a.centre, b.centre, {}, o.area};
           const std::size_t corners = o.polygon.size();
+          mpq_class parts;
           for (std::size_t k = 0; k < corners; ++k) {
             const RationalPoint &from = o.polygon[k], &to = o.polygon[(k + 1) % corners], side = minus(to, from);
-            Load& on = a.on_an_edge(from, to) ? on_a : on_b;
+            const mpq_class of_a = a.part_of_edge(from, to), part = of_a > 0 ? of_a : b.part_of_edge(from, to);
+            Load& on = of_a > 0 ? on_a : on_b;
             const RationalPoint middle{(from.x + to.x) / 2, (from.y + to.y) / 2}, arm = minus(middle, on.at);
             on.fx -= side.y, on.fy += side.x;  // pressure acts against the outward normal (side.y, -side.x)
             on.moment += arm.x * side.x + arm.y * side.y;
-            pair.point.x += from.x / static_cast<long>(corners), pair.point.y += from.y / static_cast<long>(corners);
+            parts += part, pair.point.x += part * middle.x, pair.point.y += part * middle.y;
           }
+          pair.point.x /= parts, pair.point.y /= parts;
           Overlapping& all = overlaps[{grain[i], grain[j], s}];
           all.loads.push_back(on_a), all.loads.push_back(on_b);
           all.pairs.push_back(pair);

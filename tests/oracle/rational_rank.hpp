@@ -12,8 +12,8 @@ namespace isostat {
 std::int64_t rational_rank(const Packing<2>& packing, NetworkLaw law, bool cell_free);
 
 // The same for grains of triangles, none held: overlaps are looked for among all pairs and images, and a pair of grains
-// has one row for all of them, with friction a second one at the mean of the corners of each overlap, weighted by
-// areas.
+// has one row for all of them. With friction it has a second one, at the mean of the pairs' points weighted by areas;
+// the point of a pair is the mean of its sides weighted by the parts of their edges that they are.
 std::int64_t rational_rank(const TrianglePacking& packing, const std::vector<Triangle>& triangles, NetworkLaw law,
                            bool cell_free);
 
