@@ -6,6 +6,7 @@
 #include "apps/json_output.hpp"
 #include "apps/lab/experiments.hpp"
 #include "dem/input_error.hpp"
+#include "dem/run_error.hpp"
 #include "dem/triangles/lab/collide.hpp"
 
 namespace isostat {
@@ -55,7 +56,14 @@ int lab_collide_squares(int argc, char** argv) {
        kJsonOption},
       {"", "Energies and spins after the collision of two squares (Poeschel and Buchholtz 1995, Sec. 6.1)."});
   args.require_inputs(0, 0, "no operand: the speed is --speed V");
-  const lab::Collision c = lab::collide_squares(setup_of(args));
+  const lab::CollisionSetup setup = setup_of(args);
+  lab::Collision c;
+  try {
+    c = lab::collide_squares(setup);
+  } catch (const RunError& error) {
+    throw InputError("command line", 0, "--speed", nlohmann::json(setup.speed).dump(),
+                     std::string("no result with these arguments: ") + error.what());
+  }
   write_json(args, {{"translation", c.translation},
                     {"rotation", c.rotation},
                     {"dissipated", 1 - c.translation - c.rotation},

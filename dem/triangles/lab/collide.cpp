@@ -17,6 +17,7 @@ namespace isostat::lab {
 namespace {
 
 constexpr int kMostHalvings = 8;
+constexpr double kSafety = 0.5;  // [largest stable step]
 constexpr double kLongest = 50;  // [s/V] until which they must have parted
 
 Scene scene_of(const CollisionSetup& setup, double step) {
@@ -112,14 +113,13 @@ double largest_fraction(const CollisionSetup& setup) {
 }
 
 Collision collide_squares(const CollisionSetup& setup) {
+  const double coarsest = std::min(kCoarsest, kSafety * largest_fraction(setup));
   if (setup.step)
-    return collide(setup, *setup.step, std::max(1, static_cast<int>(std::lround(kCoarsest / *setup.step))));
-  double step = kCoarsest;
-  Collision last = collide(setup, step, 1);
+    return collide(setup, *setup.step, std::max(1, static_cast<int>(std::lround(coarsest / *setup.step))));
+  Collision last = collide(setup, coarsest, 1);
   bool still = false;
   for (int k = 1; k <= kMostHalvings; ++k) {
-    step /= 2;
-    Collision next = collide(setup, step, 1 << k);
+    Collision next = collide(setup, std::ldexp(coarsest, -k), 1 << k);
     next.change = change(next, last);
     next.cpu_seconds += last.cpu_seconds;
     if (next.change < kConverged && still) return next;

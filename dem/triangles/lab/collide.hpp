@@ -30,7 +30,8 @@ struct Collision {
 // Largest c at which the square is stable with this integrator.
 double largest_fraction(const CollisionSetup& setup);
 
-// Without a step the numbers are those of the first c = kCoarsest/2^n for which they have changed by less than
+// Without a step the numbers are those of the first c = kCoarsest/2^n (less for squares whose dampers need it)
+// for which they have changed by less than
 // kConverged in two halvings one after the other: force gradients jump where corners pass edges, so that errors fall
 // like dt, erratically. Throws RunError where they do not, or where the squares do not part.
 Collision collide_squares(const CollisionSetup& setup);
