@@ -7,8 +7,8 @@
 
 Reads the folders of those studies that are there, their run.json and series alone. Writes one row a run
 (granular_hopper_runs.csv, granular_drum_runs.csv), means in the form of a study.csv, for `isostat plot --what study`
-(granular_hopper.csv, granular_vibrated.csv, granular_waves.csv, granular_drum.csv), and thinned series (granular_series_*.csv);
-prints means and fits. All in cm, g, s: disks are scaled by their a and by 981 cm/s^2.
+(granular_hopper.csv, granular_vibrated.csv, granular_waves.csv, granular_drum.csv), and thinned series
+(granular_series_*.csv); prints means and fits. All in cm, g, s: disks are scaled by their a and by 981 cm/s^2.
 """
 import argparse
 import csv
@@ -84,7 +84,7 @@ def hopper_runs(out):
                 grains = "frictionless disks"
             yield {"study": study, "grains": grains, "opening": round(opening, 2),
                    "frequency": float(shake[1]) if shake else 0.0, "acceleration": float(shake[2]) if shake else 0.0,
-                   "seed": int(run["seed"]), "end": "empty" if run["status"] == "ok" else run["reason"].split(":")[0],
+                   "seed": int(run["seed"]), "end": "empty" if run["status"] == "ok" else "clogged" if "clogged" in run["reason"] else "time",
                    "kept": kept, "duration": duration, "rate": rate, "cpu_seconds": float(run["cpu_seconds"])}
 
 
