@@ -8,6 +8,7 @@
 
 #include "analysis/network/force_scale.hpp"
 #include "analysis/network/sections.hpp"
+#include "analysis/network/triangle_sections.hpp"
 #include "analysis/rigidity/sections.hpp"
 #include "analysis/structure/merge_curves.hpp"
 #include "analysis/structure/sections.hpp"
@@ -28,6 +29,10 @@ const std::vector<Section>& sections() {
                  .cell_for = "an isolated packing has no area",
                  .forces = Forces::needed},
        .compute = stress_section},
+      {.name = "beams",
+       .takes = {.triangles = OfTriangles::any, .beams = true},
+       .compute = beams_section,
+       .tables = beams_tables},
       {.name = "forces", .takes = {.forces = Forces::needed}, .compute = forces_section, .tables = forces_tables},
       {.name = "percolation",
        .takes = {.cell_for = "a network percolates to its own image", .forces = Forces::needed},
@@ -134,6 +139,7 @@ std::optional<std::string> refusal(const Takes& takes, const AnalysisInput& inpu
   if (input.packing_3d && !takes.space) return "is defined for packings in the plane; this one is in 3D";
   if (!input.has_cell() && !takes.cell_for.empty()) return "needs a periodic cell: " + std::string(takes.cell_for);
   if (input.grains() == 0 && takes.grains) return "needs at least one grain";
+  if (takes.beams && !input.triangles) return "needs grains of triangles joined by beams";
   if (!input.has_law() && takes.law) return "needs a state of the solver: this input has no interaction law";
   const bool forces = read_forces(input).known;
   if (!forces && takes.forces == Forces::needed) return "needs forces: this input has none";
