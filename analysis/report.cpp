@@ -104,12 +104,16 @@ void set_undefined_to_null(nlohmann::ordered_json& value) {
 nlohmann::ordered_json units_of(const AnalysisInput& input) {
   if (input.triangles) return {{"system", "cgs"}, {"length", "cm"}, {"mass", "g"}, {"force", "dyn"}, {"time", "s"}};
   if (!input.has_law()) return {{"system", "of the input file"}};
-  const bool cohesive = input.state.law.attraction > 0;
+  const bool cohesive = input.state.law.attraction > 0, pressed = input.has_cell() || !(input.state.scene.gravity > 0);
   nlohmann::ordered_json units{{"system", "reduced"},
                                {"length", "a"},
                                {"mass", "m"},
-                               {"force", cohesive ? "F0" : "a P"},
-                               {"time", cohesive ? "sqrt(m a / F0)" : "sqrt(m / P)"}};
+                               {"force", cohesive  ? "F0"
+                                         : pressed ? "a P"
+                                                   : "m a / T0^2"},
+                               {"time", cohesive  ? "sqrt(m a / F0)"
+                                        : pressed ? "sqrt(m / P)"
+                                                  : "T0"}};
   if (const auto& si = input.state.scene.units)
     units["si"] = {{"length_m", si->length}, {"density_kg_per_m2", si->density}, {"force_N", si->force}};
   return units;

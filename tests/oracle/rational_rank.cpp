@@ -78,6 +78,11 @@ std::int64_t rational_rank(const Packing<2>& p, NetworkLaw law, bool cell_free) 
       rows.push_back(row);
     }
   }
+  if (!p.part.empty())
+    for (Row& row : rows)
+      std::erase_if(row, [&](const auto& entry) {
+        return entry.first < strain && p.part[entry.first / per_body] != GrainPart::free;
+      });
   return rank_by_elimination(std::move(rows));
 }
 
