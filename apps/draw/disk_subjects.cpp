@@ -82,7 +82,8 @@ double signed_area(const Polygon& wall) {
 
 PoreMapOptions pores(const AnalysisInput& input, const ForceReading& reading) {
   const Bodies<2>& b = input.packing().bodies;
-  const std::span centre(b.position.data(), grains_of(input)), radius(b.radius.data(), grains_of(input));
+  const std::span<const Vec2> centre(b.position.data(), grains_of(input));
+  const std::span<const double> radius(b.radius.data(), grains_of(input));
   PoreOptions how;
   how.with_arcs = true;
   Pores found;
