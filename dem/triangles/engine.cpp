@@ -177,8 +177,7 @@ Advance TriangleEngine::advance(const MotionStep& step, double drag) {
   move = std::max(move, container_move_);
   const double affine = std::max(std::abs(step.scale[0] - 1), std::abs(step.scale[1] - 1));
   const double range = affine > 0 ? lists_->inner_skin() + 4 * store_.largest_radius() : 0;
-  // Two neighbours, each by its move; the correction before moved them, too.
-  const double displacement = (1.01 + affine) * (2 * (move + correction_) + affine * range);
+  const double displacement = (1.01 + affine) * (2 * move + affine * range);  // two neighbours, each by its move
   return {displacement, !(move <= kMostMove * smallest_reach_)};
 }
 
@@ -267,7 +266,7 @@ void TriangleEngine::correct() {
     const double move = std::hypot(moved[0], moved[1]) + s[Store::reach][k] * std::abs(moved[2]);
     if (!(move <= largest)) largest = move;
   }
-  correction_ = largest;
+  lists_->add_travel(2.02 * largest);
 }
 
 // Driven grains stand where the container does.
