@@ -69,6 +69,11 @@ class NeighbourLists {
     outer_travel_ += pair_displacement;
     if (!(inner_travel_ <= inner_skin_)) rebuild(bodies, cell, pair_displacement);
   }
+  // Bodies that move after update() tell so: it counts towards the next one.
+  void add_travel(double pair_displacement) {
+    inner_travel_ += pair_displacement;
+    outer_travel_ += pair_displacement;
+  }
   // Whether update() would rebuild: for who must prepare the bodies.
   bool outgrown(double pair_displacement) const { return !(inner_travel_ + pair_displacement <= inner_skin_); }
   double inner_skin() const { return inner_skin_; }  // [a] within which listed pairs are

@@ -104,8 +104,7 @@ Advance TriangleEngine::advance(const MotionStep& step, double drag) {
   move = std::max(move, container_move_);
   const double affine = std::max(std::abs(step.scale[0] - 1), std::abs(step.scale[1] - 1));
   const double range = affine > 0 ? lists_->inner_skin() + 4 * store_.largest_radius() : 0;
-  // Two neighbours, each by its move; the correction before moved them, too.
-  const double displacement = (1.01 + affine) * (2 * (move + correction_) + affine * range);
+  const double displacement = (1.01 + affine) * (2 * move + affine * range);  // two neighbours, each by its move
   return {displacement, !(move <= kMostMove * smallest_reach_)};
 }
 

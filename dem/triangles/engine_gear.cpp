@@ -71,7 +71,7 @@ void TriangleEngine::correct() {
     const double move = std::hypot(moved[0], moved[1]) + s[Store::reach][k] * std::abs(moved[2]);
     if (!(move <= largest)) largest = move;
   }
-  correction_ = largest;
+  lists_->add_travel(2.02 * largest);
 }
 
 }  // namespace isostat

@@ -140,7 +140,7 @@ PaperContact paper_contact(const Triangle& a, const Triangle& b, double modulus)
     case OverlapType::iv:
     case OverlapType::v:
       push_out(a, b, a_on_b, modulus, 1, sum);
-      if (signs.type == OverlapType::iv) push_out(b, a, b_on_a, modulus, -1, sum);
+      push_out(b, a, b_on_a, modulus, -1, sum);
       break;
     case OverlapType::degenerate: {
       const TriangleOverlap o = triangle_overlap(a, b);

@@ -54,7 +54,7 @@ double difference(const State<TriangleGrains>& s) {
     most = std::max({most, std::abs(loads[k].fx - s.memory.force[k][0]), std::abs(loads[k].fy - s.memory.force[k][1]),
                      std::abs(loads[k].moment - s.memory.torque[k])});
   }
-  EXPECT_GT(largest, 10);
+  EXPECT_GT(largest, 1);
   return most / largest;
 }
 
@@ -99,40 +99,40 @@ TEST(EngineForces, MissNoOverlapInFastFlow) {
     for (const bool box : {false, true}) {
       SCOPED_TRACE(std::string(shapes) + (box ? " in a shaken box" : " in a cell that shrinks"));
       MovingTriangles m;
-      m.count = 50, m.shapes = shapes, m.speed = 150;
+      m.count = 50, m.shapes = shapes, m.speed = 100, m.law = oracle::soft_beams();
       m.law.damping = 0;  // so that all forces are those at rest
       CellControl control;
       if (box) {
         m.container.shape = ContainerShape::box, m.container.walls = ContainerWalls::grains, m.container.width = 2;
         m.gravity = 981, m.motion.vibration_amplitude = 0.05, m.motion.vibration_frequency = 300;
       } else {
-        control.strain_rate = {{60, 40}};
+        control.strain_rate = {{30, 20}};
       }
       State<TriangleGrains> s = moving_triangles(m);
       Solver<TriangleGrains> solver(s, control);
       double worst = 0;
       std::size_t pairs = 0;
-      for (int k = 0; k < 400; ++k) {
+      for (int k = 0; k < 800; ++k) {
         solver.step();
         solver.snapshot(s);
         worst = std::max(worst, difference(s));
         pairs = std::max(pairs, overlapping_triangles(s.packing).size());
       }
       EXPECT_LT(worst, 1e-12);
-      EXPECT_GT(pairs, 40u);
-      EXPECT_GT(solver.engine().lists().inner_rebuilds(), 10u);
+      EXPECT_GT(pairs, 20u);
+      EXPECT_GE(solver.engine().lists().inner_rebuilds(), 5u);
     }
 }
 
-// A rod that is drawn out far beyond its circle still meets the squares beside its ends.
+// A rod of soft beams that is drawn out far beyond its circle still meets the squares beside its ends.
 TEST(EngineForces, FollowAGrainThatOutgrowsItsCircle) {
   MovingTriangles m;
   m.count = 1, m.shapes = "rod";
-  m.law.failure = BeamFailure::yield, m.law.limit_tension = 300, m.law.damping = 0;
+  m.law.damping = 0;
   m.container.shape = ContainerShape::box, m.container.walls = ContainerWalls::smooth, m.solid_fraction = 0.02;
   State<TriangleGrains> s = moving_triangles(m);
   s.packing = {};
-  const GrainTemplate rod = grain_template(grain_shape("rod", 0.2), {}),
+  const GrainTemplate rod = grain_template(grain_shape("rod", 0.2), {1, 500, 0.1, 0}),
                       square = grain_template(grain_shape("square", 0.1), {});
   append_grain(s.packing, rod, {}, 0, GrainPart::free, 0);
   for (const double side : {-1.0, 1.0})

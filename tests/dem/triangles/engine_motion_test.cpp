@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <numbers>
 
 #include "dem/triangles/energy.hpp"
@@ -181,7 +180,6 @@ TEST(EngineMotion, KeepsTheEnergyOfACrowd) {
       met = std::max(met, s.packing.overlaps.size());
     }
     EXPECT_GT(met, 10u);
-    std::cout << step << " " << drift << "\n";
     if (last > 0) {
       EXPECT_LT(drift, 0.5 * last) << step;
     }

@@ -60,7 +60,7 @@ TEST(PaperContact, TypeIV) {
 }
 
 // A star of David, one triangle raised by d: it cuts equilateral corners of heights 1/2 - d, 1/2 + d/2, 1/2 + d/2 off
-// the other, of area h^2/sqrt 3.
+// the other, of area h^2/sqrt 3, and the other does the same to it.
 TEST(PaperContact, TypeV) {
   const double r = std::sqrt(3.0) / 2, d = 0.1;
   const Triangle up{{{{{0, 1}}, {{-r, -0.5}}, {{r, -0.5}}}}}, down{{{{{0, -1 + d}}, {{r, 0.5 + d}}, {{-r, 0.5 + d}}}}};
@@ -68,7 +68,7 @@ TEST(PaperContact, TypeV) {
   const PaperContact c = paper_contact(up, down, kY);
   const double high = (0.5 - d) * (0.5 - d), low = (0.5 + d / 2) * (0.5 + d / 2);
   EXPECT_NEAR(c.on_a[0], 0, 1e-12 * kY);
-  EXPECT_NEAR(c.on_a[1], kY * (high - low) / std::sqrt(3.0), 1e-12 * kY);
+  EXPECT_NEAR(c.on_a[1], 2 * kY * (high - low) / std::sqrt(3.0), 1e-12 * kY);
 }
 
 // Two bars across each other, sides y = +-(5 - x)/100 and x = +-(5 - y)/100: Y/2 times their common area on one side of
