@@ -76,6 +76,7 @@ def hopper_runs(out):
         disks = study.endswith("disks")
         for run, series in runs_of(os.path.join(out, study)):
             name = run["row"]
+            end = "empty" if run["status"] == "ok" else "clogged" if "clogged" in run["reason"] else "time"
             opening = float(re.search(r"opening([\d.]+)", name)[1]) * (A_HOPPER if disks else 1)
             shake = re.match(r"(\d+)Hz-([\d.]+)g", name)
             rate, kept, duration = flow(series, disks)
@@ -84,8 +85,7 @@ def hopper_runs(out):
                 grains = "frictionless disks"
             yield {"study": study, "grains": grains, "opening": round(opening, 2),
                    "frequency": float(shake[1]) if shake else 0.0, "acceleration": float(shake[2]) if shake else 0.0,
-                   "seed": int(run["seed"]), "end": "empty" if run["status"] == "ok" else "clogged" if "clogged" in run["reason"] else "time",
-                   "kept": kept, "duration": duration, "rate": rate, "cpu_seconds": float(run["cpu_seconds"])}
+                   "seed": int(run["seed"]), "end": end, "kept": kept, "duration": duration, "rate": rate, "cpu_seconds": float(run["cpu_seconds"])}
 
 
 def mean_error(values):
@@ -126,6 +126,15 @@ def weighted_line(x, y, error):
     return a, b, math.sqrt(sxx / d), math.sqrt(s / d), chi2
 
 
+def edge_error(x, y, error):
+    """Of the zero of the line through the points: each moved by its error in turn."""
+    def edge(values):
+        a, b = weighted_line(x, values, error)[:2]
+        return -a / b
+    moved = [[v + (error[k] if k == n else 0) for k, v in enumerate(y)] for n in range(len(y))]
+    return math.sqrt(sum((edge(m) - edge(y)) ** 2 for m in moved))
+
+
 def hopper(runs, results):
     write(os.path.join(results, "granular_hopper_runs.csv"), list(runs[0]), runs)
     means = []
@@ -154,9 +163,8 @@ def hopper(runs, results):
         y = [m["rate"] ** (2 / 3) for m in points]
         error = [2 / 3 * m["rate_se"] / m["rate"] ** (1 / 3) for m in points]
         a, b, da, db, chi2 = weighted_line(x, y, error)
-        edge = -a / b
-        print(f"Beverloo {grains}: rate = C (D - D0)^1.5, C = {b ** 1.5:.2f} +- {1.5 * b ** .5 * db:.2f}, C/sqrt(g) "
-              f"{b ** 1.5 / math.sqrt(G):.3f} D0 = {edge:.3f} cm, chi2 {chi2:.1f} of {len(points)} points")
+        print(f"Beverloo {grains}: C (D - D0)^1.5, C = {b ** 1.5:.0f} +- {1.5 * b ** .5 * db:.0f} grains/s cm^-1.5, "
+              f"D0 = {-a / b:.3f} +- {edge_error(x, y, error):.3f} cm, chi2 {chi2:.1f} of {len(points)} points")
 
 
 def without_mean(values, half):
@@ -194,7 +202,7 @@ def waves(out, results):
     write(os.path.join(results, "granular_waves.csv"), list(rows[0]), rows)
     for grains in ("squares", "disks"):
         for r in sorted((r for r in rows if r["grains"] == grains), key=lambda r: -r["correlation"])[:3]:
-            print(f"waves {grains}: correlation {text(r['correlation'])} +- {text(r['correlation_se'])} at {r['lag']} s")
+            print(f"waves {grains}: {text(r['correlation'])} +- {text(r['correlation_se'])} at {r['lag']} s")
 
 
 def drum_run(run, series, disks):
