@@ -144,6 +144,9 @@ PaperContact paper_contact(const Triangle& a, const Triangle& b, double modulus)
       break;
     case OverlapType::degenerate: {
       const TriangleOverlap o = triangle_overlap(a, b);
+      const auto sides = o.sides();
+      const auto of_a = std::count_if(sides.begin(), sides.end(), [](const auto& s) { return s.owner == Owner::a; });
+      if (of_a == 0 || of_a == o.side_count) break;  // one inside the other: the gradient is 0 but for rounding
       const Vec2& g = o.gradient_a.translation;
       const double chord = norm(g);
       if (!(chord > 0)) break;

@@ -13,7 +13,7 @@ struct MovingTriangles {
   double solid_fraction = 0.5;    // of the start without overlaps
   double speed = 100;             // [cm/s] scale of the velocities of grains; of triangles against theirs a tenth
   double spin = 200;              // [1/s] scale of the spins of grains
-  double step_fraction = 0;       // [1/omega] 0: 0.3, of Gear 0.2
+  double step_fraction = 0;       // [1/omega] 0: 0.3, of Gear 0.1
   Integrator integrator = Integrator::verlet;
   TriangleLawScene law;
   double gravity = 0;

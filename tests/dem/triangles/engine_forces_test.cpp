@@ -95,7 +95,7 @@ TEST(EngineForces, AreThoseAtRestForEveryInstructionSet) {
 
 // In fast flow lists and candidates live through many rebuilds; a missed pair of triangles would leave its force out.
 TEST(EngineForces, MissNoOverlapInFastFlow) {
-  for (const char* shapes : {"square", "square,L,polygon5,rod,star"})
+  for (const char* shapes : {"square", "square,L,polygon5"})
     for (const bool box : {false, true}) {
       SCOPED_TRACE(std::string(shapes) + (box ? " in a shaken box" : " in a cell that shrinks"));
       MovingTriangles m;

@@ -121,6 +121,10 @@ TEST(PaperContact, OneInsideTheOtherMeetsNoForce) {
   const Triangle inside{{{{{0, -2}}, {{1, -1.5}}, {{0, -1}}}}};
   EXPECT_EQ(norm(paper_contact(inside, kFloor, kY).on_a), 0);
   EXPECT_EQ(paper_contact(kFloor, inside, kY).moment_a, 0);
+  // Whose edges add up to zero but for rounding.
+  const Triangle small{{{{{0.1, -2.1}}, {{1.3, -1.7}}, {{0.3, -1.3}}}}};
+  EXPECT_EQ(norm(paper_contact(small, kFloor, kY).on_a), 0);
+  EXPECT_EQ(norm(paper_contact(kFloor, small, kY).on_a), 0);
 }
 
 // No pair, however deep or flat, has a force beyond Y times the areas, a force without its opposite, or a couple out of
