@@ -95,6 +95,12 @@ EdgePair crossed_twice(const Crosses& crosses, const Triangle& t, const Vec2& to
   return found;
 }
 
+// One of the triangles is inside the other: the gradient is 0 but for rounding.
+bool of_one_triangle(const TriangleOverlap& o) {
+  const auto sides = o.sides();
+  return std::all_of(sides.begin(), sides.end(), [&](const OverlapSide& s) { return s.owner == sides[0].owner; });
+}
+
 }  // namespace
 
 PaperContact paper_contact(const Triangle& a, const Triangle& b, double modulus) {
@@ -116,11 +122,14 @@ PaperContact paper_contact(const Triangle& a, const Triangle& b, double modulus)
       const Vec2 s1 = crossing(a, edges.a[0], b, edges.b[0]), s2 = crossing(a, edges.a[1], b, edges.b[1]);
       const int corner_a = common_corner(edges.a[0], edges.a[1]), corner_b = common_corner(edges.b[0], edges.b[1]);
       const double force = modulus * (cut_area(a, corner_a, s1, s2) + cut_area(b, corner_b, s1, s2));
-      // Away from the corner of A that is inside B.
+      // Away from the part of A's boundary that is inside B: on the side of the corner between the two edges, if that
+      // is the one inside, else on the other.
+      const auto& of_b = signs.of_a[idx(corner_a)];
+      const bool inside = of_b[0] > 0 && of_b[1] > 0 && of_b[2] > 0;
       const Vec2 chord = s2 - s1;
       const double length = norm(chord);
       Vec2 normal = outward(chord);
-      if (dot(normal, a.corner[idx(corner_a)] - s1) > 0) normal = -1.0 * normal;
+      if ((dot(normal, a.corner[idx(corner_a)] - s1) > 0) == inside) normal = -1.0 * normal;
       if (length > 0) sum.add(force * normal, 0.5 * (s1 + s2));
       break;
     }
@@ -143,17 +152,17 @@ PaperContact paper_contact(const Triangle& a, const Triangle& b, double modulus)
       push_out(b, a, b_on_a, modulus, -1, sum);
       break;
     case OverlapType::degenerate: {
-      const TriangleOverlap o = triangle_overlap(a, b);
-      const auto sides = o.sides();
-      const auto of_a = std::count_if(sides.begin(), sides.end(), [](const auto& s) { return s.owner == Owner::a; });
-      if (of_a == 0 || of_a == o.side_count) break;  // one inside the other: the gradient is 0 but for rounding
-      const Vec2& g = o.gradient_a.translation;
+      // Where edges coincide a gradient is one-sided, that of the first triangle: the mean is nobody's.
+      const TriangleOverlap o = triangle_overlap(a, b), turned = triangle_overlap(b, a);
+      if (of_one_triangle(o) || of_one_triangle(turned)) break;
+      const Vec2 g = 0.5 * (o.gradient_a.translation - turned.gradient_a.translation);
       const double chord = norm(g);
       if (!(chord > 0)) break;
       const double pressure = modulus * o.area / chord;
       PaperContact contact;
       contact.on_a = -pressure * g;
-      contact.moment_a = -pressure * o.gradient_a.rotation, contact.moment_b = -pressure * o.gradient_b.rotation;
+      contact.moment_a = -0.5 * pressure * (o.gradient_a.rotation + turned.gradient_b.rotation);
+      contact.moment_b = -0.5 * pressure * (o.gradient_b.rotation + turned.gradient_a.rotation);
       return contact;
     }
   }

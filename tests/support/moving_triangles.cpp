@@ -22,9 +22,8 @@ State<TriangleGrains> moving_triangles(const MovingTriangles& m) {
   scene.triangle_grains.shape = m.shapes;
   scene.triangle_grains.solid_fraction = m.solid_fraction;
   scene.triangle_law = m.law;
-  scene.step.integrator = m.integrator, scene.step.fraction = m.step_fraction > 0                ? m.step_fraction
-                                                              : m.integrator == Integrator::gear ? 0.25
-                                                                                                 : 0.5;
+  const double step = m.integrator == Integrator::gear ? 0.1 : 0.3;
+  scene.step.integrator = m.integrator, scene.step.fraction = m.step_fraction > 0 ? m.step_fraction : step;
   scene.gravity = m.gravity;
   scene.container = m.container;
   scene.stages[0].container = m.motion;
