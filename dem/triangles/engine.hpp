@@ -2,7 +2,6 @@
 // predictor-corrector), the container, lists of grains and candidates of triangles, overlaps, beams and their failure,
 // and the traffic with a state.
 #pragma once
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -87,9 +86,8 @@ class TriangleEngine {
   OverlapTally overlap_tally_;
   BeamTally beam_tally_;
   Cell cell_;
-  std::array<AlignedVector<double>, 3> predicted_;  // Gear: a dt^2/2 of x, y and angle
-  double smallest_reach_ = 0;                       // [cm]
-  double container_move_ = 0;                       // [cm] by the container in the last step
+  double smallest_reach_ = 0;  // [cm]
+  double container_move_ = 0;  // [cm] by the container in the last step
   std::vector<BeamEvent> events_;
 };
 
