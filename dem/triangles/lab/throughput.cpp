@@ -10,6 +10,7 @@ namespace isostat::lab {
 namespace {
 
 constexpr double kDefaultTriangleSteps = 8e7, kWarmTriangleSteps = 2e6;
+constexpr double kRoom = 1.15;  // of the circle about a grain, as scenes have it; a tight one is outgrown at once
 constexpr std::int64_t kHeldTogether = 100, kLeastWarm = 10;  // steps
 
 bool held_together(const TrianglePacking& p) {
@@ -23,6 +24,7 @@ void make_network_run(State<TriangleGrains>& state) {
   state.scene = default_scene(SceneSystem::triangles, 1);
   state.law.damping = state.scene.triangle_law.damping;
   state.time_step = triangle_time_step(state.scene, state.packing);
+  for (double& r : state.packing.grains.radius) r *= kRoom;
   if (state.packing.cell) state.cell_motion.reference_length = state.packing.cell->length;
 }
 
