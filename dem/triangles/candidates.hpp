@@ -29,6 +29,8 @@ class GrainPairs {
 
   // A step costs 1.4 ns a triangle more for every .001 cm of skin (candidates), a rebuild 80 ns a triangle every skin /
   // displacement steps: the sum is least at the root of kSkin d times the displacement (TRIANGLES.md 2, sides .1-.2).
+  // Sorting and laying out grains anew is dear: a wide outer skin.
+  static constexpr double kOuterSkin = 0.6;  // [mean diameter]
   static double inner_skin(double displacement, double mean_diameter) {
     return std::max(std::sqrt(kSkin * mean_diameter * displacement), kLeastSkin * mean_diameter);
   }
@@ -107,6 +109,7 @@ class Candidates {
   std::vector<Near> near_;
   AlignedVector<std::uint32_t> maybe_a_, maybe_b_;
   AlignedVector<double> maybe_x_, maybe_y_;
+  std::vector<std::uint32_t> facing_i_, facing_j_;
   std::vector<std::uint8_t> flag_;
   std::vector<double> stiffness_of_, spring_of_;
 };
