@@ -36,10 +36,12 @@ class Sum {
   PaperContact sum_;
 };
 
-// The point of edge e of A on the line of edge f of B.
+// The point of edge e of A on the line of edge f of B; on the edge, wherever rounding puts the crossing of two that are
+// nearly parallel.
 Vec2 crossing(const Triangle& a, int e, const Triangle& b, int f) {
   const Vec2 u = edge_of(a, e), w = edge_of(b, f), d = b.corner[idx(f)] - a.corner[idx(e)];
-  return a.corner[idx(e)] + (cross(d, w) / cross(u, w)) * u;
+  const double t = cross(d, w) / cross(u, w);
+  return a.corner[idx(e)] + (t >= 0 ? std::min(t, 1.0) : 0.0) * u;
 }
 
 // The corner of two edges of a triangle.

@@ -156,6 +156,10 @@ TEST(PaperContact, NeverExplodes) {
         if (kind == oracle::PairKind::random || kind == oracle::PairKind::shallow || nudge == 0) {
           ASSERT_LE(norm(c.on_a + other.on_a), 1e-6 * most) << name(kind) << k << " " << name(overlap_type(a, b));
         }
+        double extent = 0;
+        for (const Vec2& q : a.corner)
+          for (const Triangle* t : {&a, &b}) extent = std::max(extent, norm(q - centroid(*t)));
+        ASSERT_LE(std::max(std::abs(c.moment_a), std::abs(c.moment_b)), 2 * extent * most) << name(kind) << k;
         ASSERT_LE(std::abs(c.moment_a + c.moment_b + cross(centroid(a) - centroid(b), c.on_a)), 1e-9 * most)
             << name(kind) << k;
       }
