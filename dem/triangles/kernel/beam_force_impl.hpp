@@ -28,13 +28,16 @@ ISOSTAT_INLINE V small_turn(V s) {
 }
 template <class V>
 ISOSTAT_INLINE V turn_of(V sine, V cosine) {
-  const V small(kSmallTurn);
-  if (!any_of(max(sine, -sine) > small || cosine < V(0.0))) return small_turn(sine);
+  const V small(kSmallTurn), series = small_turn(sine);
+  if (!any_of(max(sine, -sine) > small || cosine < V(0.0))) return series;
+  // Lane by lane: what one grain feels does not depend on its neighbours in the block.
   constexpr std::size_t width = V::size();
-  double s[width], c[width];
+  double s[width], c[width], turn[width];
   sine.copy_to(s, stdx::element_aligned), cosine.copy_to(c, stdx::element_aligned);
-  for (std::size_t w = 0; w < width; ++w) s[w] = std::atan2(s[w], c[w]);
-  return V(s, stdx::element_aligned);
+  series.copy_to(turn, stdx::element_aligned);
+  for (std::size_t w = 0; w < width; ++w)
+    if (std::abs(s[w]) > kSmallTurn || c[w] < 0) turn[w] = std::atan2(s[w], c[w]);
+  return V(turn, stdx::element_aligned);
 }
 
 template <class V, bool kDamping, bool kVirial>
