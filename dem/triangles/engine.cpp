@@ -211,12 +211,12 @@ double TriangleEngine::predict() {
   const double h = dt_;
   double largest = 0;
   struct Axis {
-    Store::Column r, v, p, b, c, f, inverse;
+    Store::Column r, v, p, b, c, f, g, inverse;
   };
   constexpr Axis axes[] = {
-      {Store::x, Store::ux, Store::px, Store::bx, Store::cx, Store::fx, Store::inverse_mass},
-      {Store::y, Store::uy, Store::py, Store::by, Store::cy, Store::fy, Store::inverse_mass},
-      {Store::angle, Store::uw, Store::pw, Store::bw, Store::cw, Store::torque, Store::inverse_inertia}};
+      {Store::x, Store::ux, Store::px, Store::bx, Store::cx, Store::fx, Store::gx, Store::inverse_mass},
+      {Store::y, Store::uy, Store::py, Store::by, Store::cy, Store::fy, Store::gy, Store::inverse_mass},
+      {Store::angle, Store::uw, Store::pw, Store::bw, Store::cw, Store::torque, Store::gw, Store::inverse_inertia}};
   for (std::size_t k = 0; k < s.free_slots(); ++k) {
     double moved[3];
     for (int a = 0; a < 3; ++a) {
@@ -230,32 +230,32 @@ double TriangleEngine::predict() {
       s[q.r][k] += moved[a];
       s[q.v][k] = s[q.p][k] = (r1 + 2 * r2 + 3 * r3 + 4 * r4) / h;
       // The predicted acceleration is kept where the corrector finds it.
-      s[q.f][k] = r2 + 3 * r3 + 6 * r4;
+      s[q.g][k] = r2 + 3 * r3 + 6 * r4;
       s[q.b][k] = r3 + 4 * r4;
     }
     const double move = std::hypot(moved[0], moved[1]) + s[Store::reach][k] * std::abs(moved[2]);
     if (!(move <= largest)) largest = move;
   }
-  predicted_ = {s[Store::fx], s[Store::fy], s[Store::torque]};
   kernels_.corners(0, s.free_slots(), s.arrays());
   return largest;
 }
 
 void TriangleEngine::correct() {
-  if (integrator_ != Integrator::gear || predicted_[0].empty()) return;
+  if (integrator_ != Integrator::gear) return;
   auto& s = store_;
   const double h = dt_;
   double largest = 0;
   constexpr Store::Column r[] = {Store::x, Store::y, Store::angle}, v[] = {Store::ux, Store::uy, Store::uw},
                           p[] = {Store::px, Store::py, Store::pw}, f[] = {Store::fx, Store::fy, Store::torque},
-                          b[] = {Store::bx, Store::by, Store::bw}, c[] = {Store::cx, Store::cy, Store::cw};
+                          b[] = {Store::bx, Store::by, Store::bw}, c[] = {Store::cx, Store::cy, Store::cw},
+                          g[] = {Store::gx, Store::gy, Store::gw};
   for (std::size_t k = 0; k < s.free_slots(); ++k) {
     double moved[3];
     for (int a = 0; a < 3; ++a) {
       const double inverse = s[a == 2 ? Store::inverse_inertia : Store::inverse_mass][k];
       const double now =
           0.5 * h * h * (s[f[a]][k] * inverse - (a == 1 ? gravity_ * s[Store::heavy][k] : 0) - drag_ * s[p[a]][k]);
-      const double error = now - predicted_[idx(a)][k];
+      const double error = now - s[g[a]][k];
       moved[a] = kGearCorrector[0] * error;
       s[r[a]][k] += moved[a];
       s[v[a]][k] += kGearCorrector[1] * error / h;

@@ -87,9 +87,8 @@ class TriangleEngine {
   OverlapTally overlap_tally_;
   BeamTally beam_tally_;
   Cell cell_;
-  std::array<AlignedVector<double>, 3> predicted_;  // Gear: a dt^2/2 of x, y and angle
-  double smallest_reach_ = 0;                       // [cm]
-  double container_move_ = 0;                       // [cm] by the container in the last step
+  double smallest_reach_ = 0;  // [cm]
+  double container_move_ = 0;  // [cm] by the container in the last step
   std::vector<BeamEvent> events_;
 };
 

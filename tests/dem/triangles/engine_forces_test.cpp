@@ -99,7 +99,8 @@ TEST(EngineForces, MissNoOverlapInFastFlow) {
     for (const bool box : {false, true}) {
       SCOPED_TRACE(std::string(shapes) + (box ? " in a shaken box" : " in a cell that shrinks"));
       MovingTriangles m;
-      m.count = 50, m.shapes = shapes, m.speed = 100, m.law = oracle::soft_beams();
+      m.count = 50, m.shapes = shapes, m.speed = 60;
+      if (m.shapes != "square") m.law = oracle::soft_beams();
       m.law.damping = 0;  // so that all forces are those at rest
       CellControl control;
       if (box) {
@@ -112,7 +113,7 @@ TEST(EngineForces, MissNoOverlapInFastFlow) {
       Solver<TriangleGrains> solver(s, control);
       double worst = 0;
       std::size_t pairs = 0;
-      for (int k = 0; k < 800; ++k) {
+      for (int k = 0; k < 1000; ++k) {
         solver.step();
         solver.snapshot(s);
         worst = std::max(worst, difference(s));
@@ -120,7 +121,7 @@ TEST(EngineForces, MissNoOverlapInFastFlow) {
       }
       EXPECT_LT(worst, 1e-12);
       EXPECT_GT(pairs, 20u);
-      EXPECT_GE(solver.engine().lists().inner_rebuilds(), 5u);
+      EXPECT_GE(solver.engine().lists().inner_rebuilds(), 2u);  // since a grain last outgrew its circle
     }
 }
 
