@@ -98,9 +98,12 @@ EdgePair crossed_twice(const Crosses& crosses, const Triangle& t, const Vec2& to
 }
 
 // One of the triangles is inside the other: the gradient is 0 but for rounding.
+constexpr double kRounding = 1e-8;  // [perimeter of the overlap]
 bool of_one_triangle(const TriangleOverlap& o) {
-  const auto sides = o.sides();
-  return std::all_of(sides.begin(), sides.end(), [&](const OverlapSide& s) { return s.owner == sides[0].owner; });
+  double perimeter = 0;
+  bool all = true;
+  for (const OverlapSide& s : o.sides()) perimeter += norm(s.along), all = all && s.owner == o.sides()[0].owner;
+  return all || !(norm(o.gradient_a.translation) > kRounding * perimeter);
 }
 
 }  // namespace
