@@ -85,7 +85,8 @@ def hopper_runs(out):
                 grains = "frictionless disks"
             yield {"study": study, "grains": grains, "opening": round(opening, 2),
                    "frequency": float(shake[1]) if shake else 0.0, "acceleration": float(shake[2]) if shake else 0.0,
-                   "seed": int(run["seed"]), "end": end, "kept": kept, "duration": duration, "rate": rate, "cpu_seconds": float(run["cpu_seconds"])}
+                   "seed": int(run["seed"]), "end": end, "kept": kept, "duration": duration, "rate": rate,
+                   "cpu_seconds": float(run["cpu_seconds"])}
 
 
 def mean_error(values):
@@ -209,11 +210,13 @@ def drum_run(run, series, disks):
     time, _ = scale(disks, A_DRUM)
     t = [x * time for x in series["t"]]
     angle, mass, surface = series["angle"], series["inclination_mass"], series["inclination_surface"]
-    begin = next((k for k in range(len(t)) if angle[k] >= max(TURNED, float(run["row"]) * 57.3)), None)
+    frictionless, omega = run["row"].startswith("frictionless-"), float(run["row"].removeprefix("frictionless-"))
+    begin = next((k for k in range(len(t)) if angle[k] >= max(TURNED, omega * 57.3)), None)
     if begin is None:
         return None
     t, angle, mass, surface = t[begin:], angle[begin:], mass[begin:], surface[begin:]
-    result = {"grains": "disks" if disks else "squares", "omega": float(run["row"]), "seed": int(run["seed"]),
+    grains = "frictionless disks" if frictionless else "disks" if disks else "squares"
+    result = {"grains": grains, "omega": omega, "seed": int(run["seed"]),
               "seconds": t[-1] - t[0]}
     for name, values in (("mass", mass), ("surface", surface)):
         blocks = 8
