@@ -24,6 +24,19 @@ struct Strain {
   }
 };
 
+// Bounds of all strains without an arc tangent: |T| is at most 1.05 |sin T| below half a radian.
+bool is_far_from_failure(const TriangleLaw& law, const Beam& beam, const Vec2& chord, const Vec2& end_i,
+                         const Vec2& end_j) {
+  const double length = norm(chord), bend = beam.bending / beam.rest_length;
+  const auto sine = [&](const Vec2& end) {
+    return dot(end, chord) > 0 ? std::abs(chord[0] * end[1] - chord[1] * end[0]) / length : 1.0;
+  };
+  const double largest = std::max(sine(end_i), sine(end_j)), turn = 1.05 * largest;
+  return largest < 0.45 && beam.stiffness * (length - beam.rest_length) < law.limit_tension &&
+         std::abs(length / beam.rest_length - 1) < law.limit_stretch && 12 * bend * turn < law.limit_shear * length &&
+         6 * bend * turn < law.limit_bending && turn < law.limit_angle;
+}
+
 }  // namespace
 
 bool TriangleEngine::strain_beams() {
@@ -35,12 +48,14 @@ bool TriangleEngine::strain_beams() {
       Beam beam = store_.beam_at(place);
       if (!(beam.stiffness > 0)) continue;  // broken in this very step
       const Vec2 chord{{store_[Store::x][j] - store_[Store::x][i], store_[Store::y][j] - store_[Store::y][i]}};
-      const auto turn = [&](std::size_t s, Store::BeamColumn dx, Store::BeamColumn dy) {
+      const auto carried = [&](std::size_t s, Store::BeamColumn dx, Store::BeamColumn dy) {
         const double c = store_[Store::cosine][s], t = store_[Store::sine][s];
         const double x = store_.beam(dx)[place], y = store_.beam(dy)[place];
-        return end_rotation({{c * x - t * y, t * x + c * y}}, chord);
+        return Vec2{{c * x - t * y, t * x + c * y}};
       };
-      const double length = norm(chord), turn_i = turn(i, Store::xi, Store::yi), turn_j = turn(j, Store::xj, Store::yj);
+      const Vec2 end_i = carried(i, Store::xi, Store::yi), end_j = carried(j, Store::xj, Store::yj);
+      if (is_far_from_failure(law_, beam, chord, end_i, end_j)) continue;
+      const double length = norm(chord), turn_i = end_rotation(end_i, chord), turn_j = end_rotation(end_j, chord);
       const BeamForce f = beam_force(beam, length, turn_i, turn_j);
       const double lever = 0.5 * f.tangential * length;
       const double moment = std::max(std::abs(lever + f.moment), std::abs(lever - f.moment));
