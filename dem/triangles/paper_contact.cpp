@@ -97,6 +97,14 @@ EdgePair crossed_twice(const Crosses& crosses, const Triangle& t, const Vec2& to
   return found;
 }
 
+// Farthest that a point of either is from the centroid of the first.
+double reach(const Triangle& of, const Triangle& other) {
+  double farthest = 0;
+  for (const Triangle* t : {&of, &other})
+    for (const Vec2& c : t->corner) farthest = std::max(farthest, norm(c - centroid_of(of)));
+  return farthest;
+}
+
 // One of the triangles is inside the other: the gradient is 0 but for rounding.
 constexpr double kRounding = 1e-8;  // [perimeter of the overlap]
 bool of_one_triangle(const TriangleOverlap& o) {
@@ -127,14 +135,18 @@ PaperContact paper_contact(const Triangle& a, const Triangle& b, double modulus)
       const Vec2 s1 = crossing(a, edges.a[0], b, edges.b[0]), s2 = crossing(a, edges.a[1], b, edges.b[1]);
       const int corner_a = common_corner(edges.a[0], edges.a[1]), corner_b = common_corner(edges.b[0], edges.b[1]);
       const double force = modulus * (cut_area(a, corner_a, s1, s2) + cut_area(b, corner_b, s1, s2));
-      // Away from the part of A's boundary that is inside B: on the side of the corner between the two edges, if that
-      // is the one inside, else on the other.
-      const auto& of_b = signs.of_a[idx(corner_a)];
-      const bool inside = of_b[0] > 0 && of_b[1] > 0 && of_b[2] > 0;
       const Vec2 chord = s2 - s1;
       const double length = norm(chord);
       Vec2 normal = outward(chord);
-      if ((dot(normal, a.corner[idx(corner_a)] - s1) > 0) == inside) normal = -1.0 * normal;
+      // The chord parts the boundary of A inside B from that of B inside A: A is pushed away from its own. That is on
+      // the side of the corner between the two edges, if this corner is the one inside, else on the other.
+      const auto side = [&](const Vec2& corner, const std::array<std::int8_t, 3>& of_other) {
+        const bool inside = of_other[0] > 0 && of_other[1] > 0 && of_other[2] > 0;
+        return (inside ? 1 : -1) * dot(normal, corner - s1);
+      };
+      if (side(a.corner[idx(corner_a)], signs.of_a[idx(corner_a)]) >
+          side(b.corner[idx(corner_b)], signs.of_b[idx(corner_b)]))
+        normal = -1.0 * normal;
       if (length > 0) sum.add(force * normal, 0.5 * (s1 + s2));
       break;
     }
@@ -161,14 +173,13 @@ PaperContact paper_contact(const Triangle& a, const Triangle& b, double modulus)
       const TriangleOverlap o = triangle_overlap(a, b), turned = triangle_overlap(b, a);
       if (of_one_triangle(o) || of_one_triangle(turned)) break;
       const Vec2 g = 0.5 * (o.gradient_a.translation - turned.gradient_a.translation);
-      const double chord = norm(g);
+      const double turn_a = 0.5 * (o.gradient_a.rotation + turned.gradient_b.rotation);
+      const double turn_b = 0.5 * (o.gradient_b.rotation + turned.gradient_a.rotation);
+      // The arms of a force reach no further than the triangles: nearly on each other they'd meet a couple without one.
+      const double chord = std::max({norm(g), std::abs(turn_a) / reach(a, b), std::abs(turn_b) / reach(b, a)});
       if (!(chord > 0)) break;
       const double pressure = modulus * o.area / chord;
-      PaperContact contact;
-      contact.on_a = -pressure * g;
-      contact.moment_a = -0.5 * pressure * (o.gradient_a.rotation + turned.gradient_b.rotation);
-      contact.moment_b = -0.5 * pressure * (o.gradient_b.rotation + turned.gradient_a.rotation);
-      return contact;
+      return {-pressure * g, -pressure * turn_a, -pressure * turn_b};
     }
   }
   return sum.get();
