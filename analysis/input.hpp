@@ -29,23 +29,25 @@ struct AnalysisOptions {
 
 struct AnalysisInput {
   std::string path;
-  State<Disks> state;                    // a network or foreign packing is a state without law
+  State<Disks> state;  // a network or foreign packing is a state without law; walls last (put_free_first)
   std::optional<Packing<3>> packing_3d;  // a 3D network or foreign packing; `state` then has no grains
   bool links_given = false;              // the file lists contacts (a state always does); false: found by touching
   std::optional<State<TriangleGrains>> triangles;  // a packing of triangles; `state` then has no grains
-  OwnedNetwork triangle_links;                  // of its triangles, see set_triangles()
+  OwnedNetwork triangle_links;                     // of its triangles, see set_triangles()
 
   void set_triangles(State<TriangleGrains> of_grains, const std::vector<Triangle>& corners);
 
   // Of disks; of triangles: the triangles and their beams, free ones first.
   const Packing<2>& packing() const { return triangles ? triangle_links.packing : state.packing; }
   LinkNetwork network() const { return triangles ? triangle_links.view() : LinkNetwork(state.packing); }
-  // It knows its law. Disks: it comes from a run of the solver and is in reduced units; false for a foreign packing kept
-  // as .h5. Triangles always do, a network that of triangle_network_law().
+  // It knows its law. Disks: it comes from a run of the solver and is in reduced units; false for a foreign packing
+  // kept as .h5. Triangles always do, a network that of triangle_network_law().
   bool has_law() const { return triangles ? triangles->law.modulus > 0 : state.law.normal_stiffness > 0; }
   bool has_cell() const { return packing_3d ? packing_3d->cell.has_value() : packing().cell.has_value(); }
   std::size_t grains() const {
-    return packing_3d ? packing_3d->bodies.size() : triangles ? triangles->packing.grains.size() : packing().bodies.size();
+    return packing_3d  ? packing_3d->bodies.size()
+           : triangles ? triangles->packing.grains.size()
+                       : count_free(packing());
   }
   NetworkLaw network_law(const AnalysisOptions& options) const;
 };

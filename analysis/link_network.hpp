@@ -38,8 +38,8 @@ struct LinkNetwork {
   std::span<const Triangle> corners;   // of the bodies
   std::span<const std::int32_t> grain;  // of the bodies
 
-  // Implicit: every packing of disks is a network.
-  LinkNetwork(const Packing<2>& p) : packing(p), free(static_cast<std::int32_t>(p.bodies.size())) {}
+  // Implicit: every packing of disks is a network. With walls in it, put_free_first() comes before.
+  LinkNetwork(const Packing<2>& p);
   LinkNetwork(const Packing<2>& p, std::int32_t free_bodies, std::span<const AreaLink> overlaps,
               std::span<const Triangle> triangles, std::span<const std::int32_t> grains)
       : packing(p), free(free_bodies), areas(overlaps), corners(triangles), grain(grains) {}
@@ -57,6 +57,9 @@ struct LinkNetwork {
     for (const AreaPair& p : area(link).pairs) f(p.i, p.j, p.shift);
   }
 };
+
+// Walls and lids become the last bodies; else the order stays.
+void put_free_first(Packing<2>& packing);
 
 // A network with the memory behind it.
 struct OwnedNetwork {

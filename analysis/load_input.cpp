@@ -12,6 +12,8 @@ AnalysisInput load_input(const std::string& path, const AnalysisOptions& options
   AnalysisInput input;
   input.path = path;
   input.state = std::move(file.state);
+  input.state.memory = {};  // of the solver; it knows the bodies by their order
+  put_free_first(input.state.packing);
   input.packing_3d = std::move(file.packing_3d);
   input.links_given = file.links_given;
   if (file.triangles) input.set_triangles(std::move(*file.triangles), file.corners);

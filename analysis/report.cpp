@@ -8,6 +8,7 @@
 
 #include "analysis/network/force_scale.hpp"
 #include "analysis/network/sections.hpp"
+#include "analysis/network/triangle_sections.hpp"
 #include "analysis/rigidity/sections.hpp"
 #include "analysis/structure/merge_curves.hpp"
 #include "analysis/structure/sections.hpp"
@@ -28,6 +29,10 @@ const std::vector<Section>& sections() {
                  .cell_for = "an isolated packing has no area",
                  .forces = Forces::needed},
        .compute = stress_section},
+      {.name = "beams",
+       .takes = {.triangles = OfTriangles::any, .beams = true},
+       .compute = beams_section,
+       .tables = beams_tables},
       {.name = "forces", .takes = {.forces = Forces::needed}, .compute = forces_section, .tables = forces_tables},
       {.name = "percolation",
        .takes = {.cell_for = "a network percolates to its own image", .forces = Forces::needed},
@@ -99,12 +104,16 @@ void set_undefined_to_null(nlohmann::ordered_json& value) {
 nlohmann::ordered_json units_of(const AnalysisInput& input) {
   if (input.triangles) return {{"system", "cgs"}, {"length", "cm"}, {"mass", "g"}, {"force", "dyn"}, {"time", "s"}};
   if (!input.has_law()) return {{"system", "of the input file"}};
-  const bool cohesive = input.state.law.attraction > 0;
+  const bool cohesive = input.state.law.attraction > 0, pressed = input.has_cell() || !(input.state.scene.gravity > 0);
   nlohmann::ordered_json units{{"system", "reduced"},
                                {"length", "a"},
                                {"mass", "m"},
-                               {"force", cohesive ? "F0" : "a P"},
-                               {"time", cohesive ? "sqrt(m a / F0)" : "sqrt(m / P)"}};
+                               {"force", cohesive  ? "F0"
+                                         : pressed ? "a P"
+                                                   : "m a / T0^2"},
+                               {"time", cohesive  ? "sqrt(m a / F0)"
+                                        : pressed ? "sqrt(m / P)"
+                                                  : "T0"}};
   if (const auto& si = input.state.scene.units)
     units["si"] = {{"length_m", si->length}, {"density_kg_per_m2", si->density}, {"force_N", si->force}};
   return units;
@@ -134,6 +143,7 @@ std::optional<std::string> refusal(const Takes& takes, const AnalysisInput& inpu
   if (input.packing_3d && !takes.space) return "is defined for packings in the plane; this one is in 3D";
   if (!input.has_cell() && !takes.cell_for.empty()) return "needs a periodic cell: " + std::string(takes.cell_for);
   if (input.grains() == 0 && takes.grains) return "needs at least one grain";
+  if (takes.beams && !input.triangles) return "needs grains of triangles joined by beams";
   if (!input.has_law() && takes.law) return "needs a state of the solver: this input has no interaction law";
   const bool forces = read_forces(input).known;
   if (!forces && takes.forces == Forces::needed) return "needs forces: this input has none";

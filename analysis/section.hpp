@@ -30,6 +30,7 @@ struct Takes {
   bool law = false;                // needs an interaction law: a state of the solver
   Forces forces = Forces::not_needed;
   bool grains = false;     // needs at least one grain
+  bool beams = false;      // needs grains that are held together by beams
   bool stiffness = false;  // needs a stiffness for every row of G that --law asks for
   bool strains = false;    // strains the cell: nothing in it may be held
 };

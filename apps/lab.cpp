@@ -16,6 +16,7 @@ int lab_command(int argc, char** argv) {
   constexpr Experiment experiments[] = {{"pair", lab_pair},
                                         {"cluster", lab_cluster},
                                         {"grain", lab_grain},
+                                        {"collide-squares", lab_collide_squares},
                                         {"overlap", lab_overlap},
                                         {"throughput", lab_throughput}};
   std::string list;

@@ -36,8 +36,11 @@ class ClustersContent final : public PictureContent {
     canvas.end_group();
   }
 
-  std::vector<LegendItem> legend(const PicturePen&, double em) const override {
-    std::vector<LegendItem> items = cluster_legend(em, options_.of_grain, options_.hyperstatic);
+  std::vector<LegendItem> legend(const PicturePen& pen, double em) const override {
+    std::vector<std::int32_t> of_grain;
+    for (std::size_t i = 0; i < options_.of_grain.size(); ++i)
+      if (is_free(pen.packing().part, i)) of_grain.push_back(options_.of_grain[i]);
+    std::vector<LegendItem> items = cluster_legend(em, of_grain, options_.hyperstatic);
     if (std::find(options_.of_link.begin(), options_.of_link.end(), -1) != options_.of_link.end())
       items.push_back(line_item(em, kFaint, plain("hinge")));
     return items;

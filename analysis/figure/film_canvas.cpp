@@ -1,12 +1,14 @@
 #include "analysis/figure/film_canvas.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <string>
 
 namespace isostat {
 namespace {
 
-constexpr int kDecimals = 1;  // [pt] of a film: a tenth of a point is finer than a pixel of most screens
+constexpr std::size_t kWorthUsing = 100;  // [bytes] of a group that is not written again
+constexpr int kDecimals = 1;              // [pt] of a film: a tenth of a point is finer than a pixel of most screens
 
 std::string text_of(double x) {
   char buffer[32];
@@ -86,6 +88,30 @@ void FilmCanvas::begin_frame() {
   if (k + 1 < frames_) values += ";none", times += ';' + text_of(to);
   raw("<animate attributeName=\"display\" calcMode=\"discrete\" repeatCount=\"indefinite\" dur=\"" +
       text_of(n / rate_) + "s\" values=\"" + values + "\" keyTimes=\"" + times + "\"/>\n");
+}
+
+void FilmCanvas::begin_group(std::string_view name) {
+  const std::size_t begin = written().size();
+  SvgCanvas::begin_group(name);
+  open_.push_back({begin, written().size(), 0, last_id()});
+}
+
+void FilmCanvas::end_group() {
+  Group group = std::move(open_.back());
+  open_.pop_back();
+  const std::string_view all = written(), body = all.substr(group.body);
+  group.size = body.size();
+  const std::size_t hash = std::hash<std::string_view>()(body);
+  const auto [first, last] = seen_.equal_range(hash);
+  const auto same =
+      std::find_if(first, last, [&](const auto& s) { return body == all.substr(s.second.body, s.second.size); });
+  if (body.size() < kWorthUsing || same == last) {
+    SvgCanvas::end_group();
+    seen_.emplace(hash, std::move(group));
+    return;
+  }
+  forget_from(group.begin);
+  raw("<use href=\"#" + same->second.id + "\"/>\n");
 }
 
 std::string FilmCanvas::finish() {

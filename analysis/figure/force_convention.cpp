@@ -24,7 +24,8 @@ std::vector<DiskShade> disk_shades(const Packing<2>& packing, const ForceConvent
       if (rattler[i]) shade[i] = DiskShade::rattler;
     return shade;
   }
-  shade.assign(shade.size(), DiskShade::unstressed);
+  for (std::size_t i = 0; i < shade.size(); ++i)
+    if (is_free(packing.part, i)) shade[i] = DiskShade::unstressed;
   for (const Link<2>& link : packing.links)
     if (total_force(link) >= *convention.threshold)
       for (const auto i : {link.i, link.j}) shade[static_cast<std::size_t>(i)] = DiskShade::plain;

@@ -17,7 +17,10 @@ Extent extent_of(const Packing<2>& packing, double margin) {
   if (b.size() == 0) throw std::invalid_argument("a picture needs grains");
   Extent extent;
   extent.cell = packing.cell;
-  for (const double r : b.radius) extent.diameter += 2 * r / static_cast<double>(b.size());
+  const std::size_t grains = count_free(packing);  // an emptied hopper: its walls set the scale
+  for (std::size_t k = 0; k < b.size(); ++k)
+    if (grains == 0 || is_free(packing.part, k))
+      extent.diameter += 2 * b.radius[k] / static_cast<double>(grains == 0 ? b.size() : grains);
   if (packing.cell) {
     extent.high = packing.cell->length;
     return extent;

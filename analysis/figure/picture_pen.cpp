@@ -10,7 +10,9 @@
 namespace isostat {
 
 PicturePen::PicturePen(const Packing<2>& packing, const PictureFrame& frame) : FramePen(frame), packing_(packing) {
-  for (const double r : packing.bodies.radius) largest_diameter_ = std::max(largest_diameter_, 2 * r);
+  for (std::size_t k = 0; k < packing.bodies.size(); ++k)
+    if (isostat::is_free(packing.part, k))
+      largest_diameter_ = std::max(largest_diameter_, 2 * packing.bodies.radius[k]);
 }
 
 Stroke FramePen::outline(const Color& color) const {

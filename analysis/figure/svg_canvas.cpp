@@ -81,7 +81,8 @@ SvgCanvas::SvgCanvas(const Vec2& size, int decimals) : decimals_(decimals) {
 
 void SvgCanvas::begin_group(std::string_view name) {
   const int times = ++groups_[std::string(name)];
-  out_ += "<g id=\"" + escaped(name) + (times > 1 ? '-' + std::to_string(times) : "") + "\">\n";
+  last_id_ = escaped(name) + (times > 1 ? '-' + std::to_string(times) : "");
+  out_ += "<g id=\"" + last_id_ + "\">\n";
 }
 
 void SvgCanvas::clip(const Rect& r) {
@@ -105,7 +106,7 @@ void SvgCanvas::segments(std::span<const SegmentMark> marks, const Color& color)
   std::string width;
   std::size_t start = out_.size();
   for (const SegmentMark& s : marks) {
-    if (std::string w = number(s.width, 2 + (s.width < 1)); w != width || out_.size() - start > kLongestPath) {
+    if (std::string w = number(s.width, decimals_ + (s.width < 1)); w != width || out_.size() - start > kLongestPath) {
       if (!width.empty()) out_ += "\"/>\n";
       width = std::move(w);
       start = out_.size();

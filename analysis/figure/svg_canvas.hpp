@@ -26,13 +26,16 @@ class SvgCanvas : public Canvas {
 
  protected:
   void raw(std::string_view markup) { out_ += markup; }
+  const std::string& written() const { return out_; }
+  void forget_from(std::size_t place) { out_.resize(place); }
+  const std::string& last_id() const { return last_id_; }         // of the group begun last
   std::string element() { return std::move(out_) + "</svg>\n"; }  // <svg> ... </svg>
 
  private:
   std::string place(const Vec2& p) const;  // "12.5,7.25"
   static std::string box(const Rect& rect);
 
-  std::string out_;
+  std::string out_, last_id_;
   int decimals_, clips_ = 0;
   std::map<std::string, int, std::less<>> groups_;  // how often each name was given
 };

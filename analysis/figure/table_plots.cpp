@@ -59,7 +59,36 @@ const std::vector<SeriesPanel>& series_panels() {
         {"E_rolling", "rolling"},
         {"E_drag", "drag"},
         {"E_cell_work", "cell work"},
+        {"E_beams", "beams"},
+        {"E_overlaps", "overlaps"},
+        {"E_springs", "springs"},
+        {"E_weight", "weight"},
         {"E_total", "total"}}},
+      {"grains", false, {{"grains", "free"}, {"grains_left", "left"}, {"grains_above", "above the outlet"}}},
+      {"Φ of slices, bottom",
+       false,
+       {{"Phi_01", "1"},
+        {"Phi_02", "2"},
+        {"Phi_03", "3"},
+        {"Phi_04", "4"},
+        {"Phi_05", "5"},
+        {"Phi_06", "6"},
+        {"Phi_07", "7"},
+        {"Phi_08", "8"}}},
+      {"Φ of slices, top",
+       false,
+       {{"Phi_09", "9"},
+        {"Phi_10", "10"},
+        {"Phi_11", "11"},
+        {"Phi_12", "12"},
+        {"Phi_13", "13"},
+        {"Phi_14", "14"},
+        {"Phi_15", "15"},
+        {"Phi_16", "16"}}},
+      {"inclination / degrees", false, {{"inclination_surface", "surface"}, {"inclination_mass", "centre of mass"}}},
+      {"load of beams",
+       false,
+       {{"beam_tension", "tension"}, {"beam_compression", "compression"}, {"beam_moment", "moment"}}},
   };
   return panels;
 }
@@ -72,8 +101,9 @@ Plot series_plot(const DataTable& table) {
   if (!time || !time->numeric()) refuse(table, "series", "a series needs a numeric column t");
   Plot plot{{}, true};
   std::vector<std::string> used{time->name};
+  const bool seconds = time->name == "time" || table.find("beam_tension");  // a table's own time; grains of triangles
   const auto add_panel = [&](Chart chart) {
-    chart.x.title = rich("`t` / `T`_{0}");
+    chart.x.title = rich(seconds ? "`t` / s" : "`t` / `T`_{0}");
     chart.height = 96;
     if (!chart.curves.empty()) plot.charts.push_back(std::move(chart));
   };

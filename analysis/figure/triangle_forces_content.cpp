@@ -13,6 +13,8 @@ constexpr double kBarLength = 0.75;                        // [diameter of the s
 constexpr double kBeamWhite = 0.5;                         // part of white in the colours of beams
 constexpr double kHairline = 0.05, kWidestHairline = 0.6;  // [mean diameter], [pt] as for disks
 
+constexpr double kThinnestBeam = 0.05;  // [pt] most beams of a bed would not be seen
+
 class TriangleForcesContent final : public TriangleContent {
  public:
   explicit TriangleForcesContent(TriangleForceOptions options) : options_(std::move(options)) {}
@@ -88,10 +90,11 @@ class TriangleForcesContent final : public TriangleContent {
     std::vector<Bar> bars;
     for (const Link<2>& link : p.links) {
       if (link.normal_force == 0 || (link.normal_force < 0) != stretched) continue;
+      const double width = width_of(measure(link.normal_force, link.tangential_force), pen);
+      if (width < kThinnestBeam) continue;
       const Vec2& from = p.bodies.position[idx(link.i)];
       const Vec2 shift = p.cell ? p.cell->offset(link.shift) : Vec2{};
-      bars.push_back({from, p.bodies.position[idx(link.j)] + shift,
-                      width_of(measure(link.normal_force, link.tangential_force), pen)});
+      bars.push_back({from, p.bodies.position[idx(link.j)] + shift, width});
     }
     return bars;
   }

@@ -131,17 +131,18 @@ void TrianglePen::grains(Canvas& canvas, const std::vector<std::size_t>& style,
     if (part(k) == GrainPart::free) free[style[k]].push_back(&triangle_[k]);
     if (part(k) == GrainPart::wall) walls.push_back(&triangle_[k]);
   }
-  canvas.begin_group("grains");
+  const double width = std::clamp(0.05 * diameter(), 0.25, 1.2), dash = kLidDash * diameter();
+  canvas.begin_group("walls");
   // a stroke of the fill's colour: the hair between two areas that meet would be seen
   areas(canvas, walls, {kWall, Stroke{kWall, 0.3, {}}});
-  for (std::size_t s = 0; s < paints.size(); ++s) areas(canvas, free[s], paints[s]);
-  const double width = std::clamp(0.05 * diameter(), 0.25, 1.2);
   bars(canvas, outlines(GrainPart::wall, width), blend(kWall, kBlack, 0.35));
-  bars(canvas, outlines(GrainPart::free, width), FramePen::outline(kGrainOutline).color);
-  const double dash = kLidDash * diameter();
   for (const Bar& edge : outlines(GrainPart::lid, width))
     canvas.polyline(std::array{frame().page(edge.from), frame().page(edge.to)},
                     Stroke{kInk, width, {dash, 0.6 * dash}});
+  canvas.end_group();
+  canvas.begin_group("grains");
+  for (std::size_t s = 0; s < paints.size(); ++s) areas(canvas, free[s], paints[s]);
+  bars(canvas, outlines(GrainPart::free, width), FramePen::outline(kGrainOutline).color);
   canvas.end_group();
 }
 

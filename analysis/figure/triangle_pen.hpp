@@ -31,9 +31,9 @@ class TrianglePen : public FramePen {
   const std::vector<std::int32_t>& grain() const { return grain_; }  // of each triangle
   GrainPart part(std::size_t triangle) const;
 
-  // Group "grains". style[k] is the index of the paint of triangle k of a free grain; walls have a paint of their own,
-  // lids none, but a dashed outline. An edge along a beam is a seam; the others are the strong outline of the grain:
-  // where a beam has broken, too.
+  // Groups "walls" and "grains". style[k] is the index of the paint of triangle k of a free grain; walls have a paint
+  // of their own, lids none, but a dashed outline. An edge along a beam is a seam; the others are the strong outline of
+  // the grain: where a beam has broken, too.
   void grains(Canvas& canvas, const std::vector<std::size_t>& style, const std::vector<Paint>& paints) const;
   // The fill, and seams of its shade.
   Paint paint(const Color& fill) const;

@@ -63,6 +63,7 @@ Coordination coordination(const Packing<D>& packing, const ForceReading& reading
   c.degree.assign(packing.bodies.size(), 0);
   c.rattler.assign(packing.bodies.size(), 0);
   c.held.assign(packing.bodies.size(), 0);
+  for (std::size_t k = 0; k < c.held.size(); ++k) c.held[k] = !is_free(packing.part, k);
   for (std::size_t l = 0; l < packing.links.size(); ++l) {
     const Link<D>& link = packing.links[l];
     if (link.kind == LinkKind::beam) {
@@ -77,6 +78,7 @@ Coordination coordination(const Packing<D>& packing, const ForceReading& reading
     }
     ++(is_contact(link.kind) ? c.contacts : c.distant);
     ++c.degree[idx(link.i)], ++c.degree[idx(link.j)];
+    c.with_walls += !is_free(packing.part, idx(link.i)) || !is_free(packing.part, idx(link.j));
   }
   if (loaded_only)
     remove_rattlers(packing, c, 2, true);
@@ -89,7 +91,27 @@ Coordination coordination(const Packing<D>& packing, const ForceReading& reading
   return c;
 }
 
+template <int D>
+double mean_degree(const Packing<D>& packing, const Coordination& c) {
+  std::int64_t sum = 0;
+  for (std::size_t k = 0; k < c.degree.size(); ++k)
+    if (is_free(packing.part, k)) sum += c.degree[k];
+  return static_cast<double>(sum) / static_cast<double>(count_free(packing));
+}
+
+template <int D>
+double mean_backbone_degree(const Packing<D>& packing, const Coordination& c) {
+  std::int64_t sum = 0;
+  for (std::size_t k = 0; k < c.degree.size(); ++k)
+    if (is_free(packing.part, k) && !c.rattler[k]) sum += c.backbone_degree[k];
+  return static_cast<double>(sum) / static_cast<double>(static_cast<std::int64_t>(count_free(packing)) - c.rattlers);
+}
+
 template Coordination coordination(const Packing<2>&, const ForceReading&);
 template Coordination coordination(const Packing<3>&, const ForceReading&);
+template double mean_degree(const Packing<2>&, const Coordination&);
+template double mean_degree(const Packing<3>&, const Coordination&);
+template double mean_backbone_degree(const Packing<2>&, const Coordination&);
+template double mean_backbone_degree(const Packing<3>&, const Coordination&);
 
 }  // namespace isostat

@@ -20,11 +20,12 @@ double corresponding_solid_fraction_3d(double phi) {
 }
 
 // Proportions of the non-rattlers with k = 0, 1, ... interactions; at least up to k = 6, as in Figs. 3 and 6.
-std::vector<double> proportions(const Coordination& c) {
+template <int D>
+std::vector<double> proportions(const Packing<D>& packing, const Coordination& c) {
   std::vector<double> x(7, 0.0);
-  const auto rest = static_cast<double>(static_cast<std::int64_t>(c.degree.size()) - c.rattlers);
+  const auto rest = static_cast<double>(static_cast<std::int64_t>(count_free(packing)) - c.rattlers);
   for (std::size_t k = 0; k < c.degree.size(); ++k) {
-    if (c.rattler[k]) continue;
+    if (c.rattler[k] || !is_free(packing.part, k)) continue;
     const auto z = static_cast<std::size_t>(c.backbone_degree[k]);
     if (z >= x.size()) x.resize(z + 1, 0.0);
     x[z] += 1;
@@ -36,11 +37,10 @@ std::vector<double> proportions(const Coordination& c) {
 template <int D>
 nlohmann::ordered_json counts_of(const Packing<D>& packing, const ForceReading& reading) {
   const Coordination c = coordination(packing, reading);
-  const auto grains = static_cast<std::int64_t>(packing.bodies.size());
-  const std::int64_t rest = grains - c.rattlers;
   nlohmann::ordered_json json;
-  json["grains"] = grains;
+  json["grains"] = count_free(packing);
   json["contacts"] = c.contacts;
+  if (!packing.part.empty()) json["contacts_with_walls"] = c.with_walls;
   json["distant"] = c.distant;
   json["unloaded_contacts"] = c.unloaded;
   if (c.beams > 0) json["beams"] = c.beams;
@@ -48,9 +48,9 @@ nlohmann::ordered_json counts_of(const Packing<D>& packing, const ForceReading& 
   const double phi = solid_fraction(packing.bodies, packing.cell);
   json["solid_fraction"] = phi;
   json["solid_fraction_3d"] = D == 2 ? corresponding_solid_fraction_3d(phi) : phi;
-  json["z"] = 2.0 * static_cast<double>(c.contacts + c.distant) / static_cast<double>(grains);
-  json["z_star"] = rest > 0 ? 2.0 * static_cast<double>(c.backbone_links) / static_cast<double>(rest) : kUndefined;
-  json["x"] = proportions(c);
+  json["z"] = mean_degree(packing, c);
+  json["z_star"] = mean_backbone_degree(packing, c);
+  json["x"] = proportions(packing, c);
   auto one_coordinated = nlohmann::ordered_json::array();
   for (std::size_t k = 0; k < c.degree.size(); ++k)
     if (!c.rattler[k] && !c.held[k] && c.backbone_degree[k] == 1) one_coordinated.push_back(packing.bodies.id[k]);
@@ -64,6 +64,7 @@ Table grains_of(const Packing<D>& packing, const ForceReading& reading) {
   Table table{"grains", {"id", "x", "y", "r", "interactions", "backbone_interactions", "rattler"}, {}};
   if constexpr (D == 3) table.columns.insert(table.columns.begin() + 3, "z");
   for (std::size_t k = 0; k < packing.bodies.size(); ++k) {
+    if (!is_free(packing.part, k)) continue;
     std::vector<double> row{static_cast<double>(packing.bodies.id[k])};
     for (int d = 0; d < D; ++d) row.push_back(packing.bodies.position[k][d]);
     row.insert(row.end(), {packing.bodies.radius[k], static_cast<double>(c.degree[k]),

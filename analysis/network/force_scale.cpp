@@ -51,7 +51,8 @@ ForceReading read_forces(const AnalysisInput& input) {
   ForceReading reading;
   reading.known = reading.law_known = true;
   reading.cohesive = input.state.law.attraction > 0;
-  reading.scale = force_scale(input.state.law, input.state.imposed_stress);
+  reading.scale = force_scale(input.state.law, input.state.imposed_stress,
+                              heaviest_weight(input.state.packing, input.state.scene.gravity));
   reading.threshold = kLoadTolerance * reading.scale;
   return reading;
 }

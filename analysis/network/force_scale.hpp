@@ -8,7 +8,8 @@ struct ForceReading {
   bool known = false;      // the input carries forces (a state of the solver, or a foreign packing with some force)
   bool law_known = false;  // AnalysisInput::has_law()
   bool cohesive = true;    // every interaction counts; false: only contacts whose force exceeds the threshold
-  double scale = 1;      // F1 = max(F0, a P); without a law the mean magnitude of the link forces [force unit of input]
+  double scale = 1;  // F1 = max(F0, a P, heaviest weight); without a law the mean magnitude of the link forces [force
+                     // unit of input]
   double threshold = 0;  // kLoadTolerance * scale
 };
 

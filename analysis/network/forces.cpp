@@ -15,13 +15,20 @@ namespace {
 
 constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
-// Interactions of one sign of N: number, mean and root mean square of |N|.
+// Interactions of one sign of N: number, mean and root mean square of |N|; and how many ends they have at grains.
 struct Population {
-  double count = 0, sum = 0, sum_of_squares = 0;
-  void add(double force) { count += 1, sum += force, sum_of_squares += force * force; }
+  double count = 0, ends = 0, sum = 0, sum_of_squares = 0;
+  void add(double force, double at_grains) {
+    count += 1, ends += at_grains, sum += force, sum_of_squares += force * force;
+  }
   double mean() const { return count > 0 ? sum / count : kUndefined; }
   double root_mean_square() const { return count > 0 ? std::sqrt(sum_of_squares / count) : kUndefined; }
 };
+
+// A contact with a wall has one end at a grain.
+double free_ends(const Packing<2>& packing, const Link<2>& link) {
+  return static_cast<double>(is_free(packing.part, idx(link.i)) + is_free(packing.part, idx(link.j)));
+}
 
 // Fig. 15: angle between n and F in degrees; 0 repulsive, 180 tensile, both with T = 0.
 double angle_to_normal(const Link<2>& link) {
@@ -86,17 +93,17 @@ nlohmann::ordered_json forces_section(const AnalysisInput& input, const Analysis
   for (const Link<2>& link : packing.links) {
     if (link.kind == LinkKind::beam) continue;
     const double n = link.normal_force;
-    (n > reading.threshold ? plus : n < -reading.threshold ? minus : zero).add(std::abs(n));
+    (n > reading.threshold ? plus : n < -reading.threshold ? minus : zero).add(std::abs(n), free_ends(packing, link));
     unstressed += !(force_magnitude(link) > reading.threshold);
     above_tenth += std::abs(n) > 0.1 * reading.scale;
     magnitudes.push_back(std::abs(n));
   }
-  const auto grains = static_cast<double>(packing.bodies.size()), links = static_cast<double>(magnitudes.size());
+  const auto grains = static_cast<double>(count_free(packing)), links = static_cast<double>(magnitudes.size());
   const PowerLaw small = fit_power_law(magnitudes, 1e-3 * reading.scale, 1e-2 * reading.scale);
   nlohmann::ordered_json json;
-  json["z_plus"] = 2 * plus.count / grains;
-  json["z_minus"] = 2 * minus.count / grains;
-  json["z_zero"] = 2 * zero.count / grains;
+  json["z_plus"] = plus.ends / grains;
+  json["z_minus"] = minus.ends / grains;
+  json["z_zero"] = zero.ends / grains;
   json["N_plus"] = plus.mean();
   json["N_minus"] = minus.mean();
   json["N_plus_2"] = plus.root_mean_square();

@@ -12,4 +12,8 @@ std::vector<Table> triangle_counts_tables(const AnalysisInput& input);
 nlohmann::ordered_json triangle_equilibrium(const State<TriangleGrains>& state);
 nlohmann::ordered_json triangle_stress(const State<TriangleGrains>& state);
 
+// Of the beams inside grains; with its tables.
+nlohmann::ordered_json beams_section(const AnalysisInput& input, const AnalysisOptions& options);
+std::vector<Table> beams_tables(const AnalysisInput& input, const AnalysisOptions& options);
+
 }  // namespace isostat

@@ -12,18 +12,21 @@ std::vector<TriangleLoad<double>> area_loads(const LinkNetwork& n, const AreaLin
   double twice_area = 0;
   Vec2 force{};
   const auto measure = [&](const AreaPair& pair) {
-    const TriangleOverlap o = triangle_overlap(image(pair.i, {}), image(pair.j, pair.shift));
+    const Triangle a = image(pair.i, {}), b = image(pair.j, pair.shift);
+    const TriangleOverlap o = triangle_overlap(a, b);
     PairArea<double> area;
     area.twice = {-2 * o.gradient_b.translation[0], -2 * o.gradient_b.translation[1], -2 * o.gradient_a.rotation,
                   -2 * o.gradient_b.rotation};
     area.twice_area = 2 * o.area;
-    double length = 0;  // of the boundary, whose mean is the point that the solver takes
+    double parts = 0;
     Vec2 mean{};
     for (const OverlapSide& side : o.sides()) {
-      const double part = norm(side.along);
-      length += part, mean += part * (side.start + 0.5 * side.along);
+      const auto& of = (side.owner == Owner::a ? a : b).corner;
+      const Vec2 edge = of[side.edge == 2 ? 0 : side.edge + 1U] - of[side.edge];
+      const double part = dot(side.along, edge) / dot(edge, edge);
+      parts += part, mean += part * (side.start + 0.5 * side.along);
     }
-    for (int k = 0; k < 2; ++k) area.point[idx(k)] = o.origin[k] + mean[k] / length;
+    for (int k = 0; k < 2; ++k) area.point[idx(k)] = o.origin[k] + mean[k] / parts;
     twice_area += area.twice_area, force += Vec2{{area.twice.fx, area.twice.fy}};
     return area;
   };

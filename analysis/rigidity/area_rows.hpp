@@ -21,14 +21,6 @@ auto quotient(const F& a, const F& b) -> decltype(b.inverse()) {
   return a * b.inverse();
 }
 
-template <class Real>
-Real whole(std::size_t n) {
-  if constexpr (requires { Real::from_integer(1); })
-    return Real::from_integer(static_cast<std::int64_t>(n));
-  else
-    return Real{static_cast<double>(n)};
-}
-
 // On the pair: force on j (opposite on i) and moments about the reference points of both.
 template <class Real>
 struct PairLoad {
@@ -39,7 +31,8 @@ template <class Real>
 struct PairArea {
   PairLoad<Real> twice;  // of unit pressure, times two
   Real twice_area{};
-  PlanePoint<Real> point;  // where friction acts
+  PlanePoint<Real>
+      point;  // where friction acts: midpoints of the sides, weighted by the parts of their edges that they are
 };
 
 // a, b: corners; at_a, at_b: the points that moments are about, in any case the centroids.
@@ -69,6 +62,7 @@ PairArea<Real> pair_area(const OverlapBoundary& boundary, const std::array<Plane
   }
   PairArea<Real> out;
   PlanePoint<Real> on_a{}, on_b{};  // sums of sides
+  Real twice_parts{};
   for (std::size_t k = 0; k < count; ++k) {
     const auto &p = vertex[k], &q = vertex[k + 1 == count ? 0 : k + 1];
     const auto side = minus(q, p);
@@ -80,10 +74,13 @@ PairArea<Real> pair_area(const OverlapBoundary& boundary, const std::array<Plane
     Real& moment = of_a ? out.twice.moment_i : out.twice.moment_j;
     moment = moment + (arm_p[0] + arm_q[0]) * side[0] + (arm_p[1] + arm_q[1]) * side[1];
     out.twice_area = out.twice_area + cross(minus(p, from), minus(q, from));
-    out.point = {out.point[0] + p[0], out.point[1] + p[1]};
+    const auto& of = of_a ? a : b;
+    const auto edge = minus(of[next(boundary.side[k].edge)], of[idx(boundary.side[k].edge)]);
+    const Real part = quotient(side[0] * edge[0] + side[1] * edge[1], edge[0] * edge[0] + edge[1] * edge[1]);
+    twice_parts = twice_parts + part + part;
+    out.point = {out.point[0] + part * (p[0] + q[0]), out.point[1] + part * (p[1] + q[1])};
   }
-  // The solver's point is the mean of the boundary, which has roots; the mean of the corners lies beside it.
-  for (Real& x : out.point) x = quotient(x, whole<Real>(count));
+  for (Real& x : out.point) x = quotient(x, twice_parts);
   // On B (-y, x) of its sides; they close the polygon with those of A.
   out.twice.fx = on_a[1] + on_a[1], out.twice.fy = -(on_a[0] + on_a[0]);
   return out;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include "analysis/rigidity/exact_rank.hpp"
@@ -87,10 +88,11 @@ Motion random_motion(const ReducedProblem<F>& problem) {
 }
 
 // Links whose bodies move as one rigid body (with friction; an overlap with all its triangles), labelled by a
-// representative body; -1: hinges.
+// representative body; -1: hinges. The walls are one body.
 std::vector<std::int32_t> label_by_grains(const LinkNetwork& network, const ReducedProblem<F>& problem,
                                           const Motion& motion, const FieldGeometry<F>& geometry) {
   UnionFind sets(network.packing.bodies.size());
+  for (std::size_t b = idx(network.free); b + 1 < network.packing.bodies.size(); ++b) sets.join(b, b + 1);
   std::vector<char> together(network.links(), 1);
   std::vector<std::int32_t> first(network.links(), 0);
   const auto of = [&](std::int32_t body) {  // a held body stands still
@@ -120,19 +122,23 @@ std::vector<std::int32_t> label_by_grains(const LinkNetwork& network, const Redu
   return label;
 }
 
-// Frictionless: links at one grain that turn at the same rate are one rigid body (a beam turns with its two grains).
+// Frictionless: links at one grain that turn at the same rate are one rigid body (a beam turns with its two grains),
+// and so are all that do not turn at a wall.
 // Labelled by a representative link.
-std::vector<std::int32_t> label_by_links(const Packing<2>& packing, const ReducedProblem<F>& problem,
+std::vector<std::int32_t> label_by_links(const LinkNetwork& network, const ReducedProblem<F>& problem,
                                          const Motion& motion, const FieldGeometry<F>& geometry) {
+  const Packing<2>& packing = network.packing;
   const auto& strain = motion.back();
   std::vector<FieldVec<F>> velocity(packing.bodies.size());  // of the centres: V + W z x x of the image in the frame
   for (std::size_t i = 0; i < velocity.size(); ++i) {
+    if (problem.bodies.body_of[i] == RigidBodies::held) continue;
     const auto& body = motion[idx(problem.bodies.body_of[i])];
     const FieldVec<F> x = geometry.placed(i, problem.bodies.placement[i]),
                       o = geometry.offset(problem.bodies.placement[i]);
     velocity[i] = {body[0] - body[2] * x[1] + strain[0] * o[0], body[1] + body[2] * x[0] + strain[1] * o[1]};
   }
   UnionFind sets(packing.links.size());
+  std::int32_t standing = -1;  // a link that stands still with the walls
   std::vector<std::vector<std::pair<std::uint64_t, std::int32_t>>> at_grain(packing.bodies.size());
   for (std::size_t l = 0; l < packing.links.size(); ++l) {
     const Link<2>& link = packing.links[l];
@@ -142,6 +148,9 @@ std::vector<std::int32_t> label_by_links(const Packing<2>& packing, const Reduce
     const F turn = (r[0] * dy - r[1] * dx) * (r[0] * r[0] + r[1] * r[1]).inverse();
     at_grain[idx(link.i)].push_back({turn.value, static_cast<std::int32_t>(l)});
     at_grain[idx(link.j)].push_back({turn.value, static_cast<std::int32_t>(l)});
+    if ((network.is_free(link.i) && network.is_free(link.j)) || !turn.is_zero()) continue;
+    if (standing < 0) standing = static_cast<std::int32_t>(l);
+    sets.join(idx(standing), l);
   }
   for (auto& list : at_grain) {
     std::sort(list.begin(), list.end());
@@ -153,17 +162,18 @@ std::vector<std::int32_t> label_by_links(const Packing<2>& packing, const Reduce
   return label;
 }
 
-// The cluster as a packing of its own; also finds which axes its loops wind around.
-RigidCluster describe(const LinkNetwork& network, NetworkLaw law, bool cell_free,
-                      const std::vector<std::int32_t>& links) {
+// The cluster as a packing of its own; also finds which axes its loops wind around. None: what is one grain alone.
+std::optional<RigidCluster> describe(const LinkNetwork& network, NetworkLaw law, bool cell_free,
+                                     const std::vector<std::int32_t>& links) {
   RigidCluster c;
   const OwnedNetwork owned = part_of(network, {}, links);
   const LinkNetwork part = owned.view();
   const std::size_t bodies = owned.packing.bodies.size();
-  c.grains = static_cast<std::int64_t>(
-      part.of_triangles() ? std::set<std::int32_t>(owned.grain.begin(), owned.grain.end()).size() : bodies);
+  const std::set<std::int32_t> members(owned.grain.begin(), owned.grain.end()),
+      free(owned.grain.begin(), owned.grain.begin() + std::min<std::ptrdiff_t>(owned.free, std::ssize(owned.grain)));
+  c.grains = part.of_triangles() ? static_cast<std::int64_t>(free.size()) : owned.free;
   c.links = static_cast<std::int64_t>(links.size());
-  if (c.grains < 2) return c;
+  if ((part.of_triangles() ? members.size() : bodies) < 2) return std::nullopt;
   c.rows = row_count(part, law);
 
   // Potentials of images along a spanning tree; a link that disagrees closes a loop round the cell.
@@ -201,7 +211,7 @@ RigidCluster describe(const LinkNetwork& network, NetworkLaw law, bool cell_free
     }
   }
   // Few rows cannot depend on each other in a cluster without loops; otherwise ask the exact rank.
-  const bool tree = !part.of_triangles() && c.links < c.grains;
+  const bool tree = !part.of_triangles() && !part.any_held() && c.links < c.grains;
   c.hyperstatic = tree ? 0 : exact_rank(part, law, cell_free).hyperstatic;
   return c;
 }
@@ -215,7 +225,7 @@ RigidClusters rigid_clusters(const LinkNetwork& network, NetworkLaw law, bool ce
   const Motion motion = random_motion(problem);
   const FieldGeometry<F> geometry = exact_geometry<F>(network);
   const std::vector<std::int32_t> label = law == NetworkLaw::frictionless && !network.of_triangles()
-                                              ? label_by_links(packing, problem, motion, geometry)
+                                              ? label_by_links(network, problem, motion, geometry)
                                               : label_by_grains(network, problem, motion, geometry);
   std::map<std::int32_t, std::vector<std::int32_t>> links_of;
   for (std::size_t l = 0; l < label.size(); ++l)
@@ -227,8 +237,7 @@ RigidClusters rigid_clusters(const LinkNetwork& network, NetworkLaw law, bool ce
   };
   std::vector<Entry> entries;
   for (const auto& [name, links] : links_of) {
-    const RigidCluster c = describe(network, law, cell_free, links);
-    if (c.grains >= 2) entries.push_back({c, &links});
+    if (const auto c = describe(network, law, cell_free, links)) entries.push_back({*c, &links});
   }
   std::stable_sort(entries.begin(), entries.end(),
                    [](const Entry& a, const Entry& b) { return a.cluster.grains > b.cluster.grains; });

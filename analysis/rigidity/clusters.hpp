@@ -3,7 +3,8 @@
 //
 // With friction a cluster is a set of grains, and pins between clusters are hinges. Frictionless grains are points: a
 // cluster is a set of links, and a grain may be the hinge of several. Grains of triangles have an orientation: clusters
-// are sets of triangles, the grains they belong to are counted, and what is one grain alone is no cluster.
+// are sets of triangles, the grains they belong to are counted, and what is one grain alone is no cluster. Walls are
+// one rigid body: what stands still with them is one cluster.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -15,7 +16,7 @@
 namespace isostat {
 
 struct RigidCluster {
-  std::int64_t grains = 0;       // at least 2
+  std::int64_t grains = 0;       // at least 2, or 1 that stands still with the walls, which are no grains
   std::int64_t links = 0;        // inside the cluster
   std::int64_t rows = 0;         // of G, of those links
   std::int64_t hyperstatic = 0;  // H of the cluster by itself

@@ -29,8 +29,8 @@ std::int64_t null_dimension(const ReducedProblem<FirstField>& problem, const Row
   }
 }
 
-// Of triangles: rigid motions of the whole, where no wall hinders them, and of whatever beams hold together (a grain, as
-// a rule) that no overlap touches.
+// Of triangles: rigid motions of the whole, where no wall hinders them, and of whatever beams hold together (a grain,
+// as a rule) that no overlap touches.
 void count_null_spaces_of_triangles(const LinkNetwork& network, ExactRank& r) {
   UnionFind joined(network.packing.bodies.size());
   for (const Link<2>& l : network.packing.links) joined.join(idx(l.i), idx(l.j));
@@ -52,11 +52,11 @@ void count_null_spaces(const LinkNetwork& network, NetworkLaw law, ExactRank& r)
   std::vector<char> linked(packing.bodies.size(), 0);
   for (const Link<2>& link : packing.links)
     linked[static_cast<std::size_t>(link.i)] = linked[static_cast<std::size_t>(link.j)] = 1;
-  const auto n = static_cast<std::int64_t>(packing.bodies.size());
-  const std::int64_t rattlers = n - std::count(linked.begin(), linked.end(), 1);
+  const std::int64_t n = network.free;
+  const std::int64_t rattlers = n - std::count(linked.begin(), linked.begin() + n, 1);
   const std::int64_t per_body = dof_layout(network, law, false).per_body;
-  // Isolated: two translations and a rotation; of one point: the translations.
-  r.trivial = packing.cell ? 2 : std::min<std::int64_t>(3, n * per_body);
+  // Isolated: two translations and a rotation; of one point: the translations. None where walls stand.
+  r.trivial = network.any_held() ? 0 : packing.cell ? 2 : std::min<std::int64_t>(3, n * per_body);
   r.rattler_modes = rattlers == n ? n * per_body - r.trivial : rattlers * per_body;
   r.mechanisms = r.floppy - r.trivial - r.rattler_modes;
 }
@@ -64,7 +64,8 @@ void count_null_spaces(const LinkNetwork& network, NetworkLaw law, ExactRank& r)
 }  // namespace
 
 ExactRank exact_rank(const LinkNetwork& network, NetworkLaw law, bool cell_free) {
-  if (cell_free && !network.packing.cell) throw InputError("command line", 0, "--cell", "free", "the input has no cell");
+  if (cell_free && !network.packing.cell)
+    throw InputError("command line", 0, "--cell", "free", "the input has no cell");
   ExactRank r;
   r.dofs = dof_layout(network, law, cell_free).size();
   r.rows = row_count(network, law);
@@ -108,6 +109,7 @@ std::vector<std::vector<std::int32_t>> gear_components(const LinkNetwork& networ
   std::vector<std::int32_t> parent(n);
   std::iota(parent.begin(), parent.end(), 0);
   std::vector<char> side(n, 0), spoiled(n, 0), loop(n, 0);
+  std::fill(spoiled.begin() + network.free, spoiled.end(), char{1});  // walls do not turn
   const auto find = [&](std::int32_t i) {
     std::int32_t root = i;
     char parity = 0;

@@ -30,6 +30,7 @@ OwnedNetwork part_of(const LinkNetwork& network, const std::vector<std::int32_t>
     part.packing.bodies.id.push_back(packing.bodies.id[b]);
     part.packing.bodies.position.push_back(packing.bodies.position[b]);
     part.packing.bodies.radius.push_back(packing.bodies.radius[b]);
+    if (!packing.part.empty()) part.packing.part.push_back(packing.part[b]);
     if (network.of_triangles()) part.corners.push_back(network.corners[b]), part.grain.push_back(network.grain[b]);
   }
   for (const std::int32_t l : links) {

@@ -1,5 +1,6 @@
 #include "analysis/rigidity/sections.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -34,7 +35,8 @@ std::int64_t rattler_modes(const AnalysisInput& input, NetworkLaw law, bool cell
     if (stays(i)) grains.push_back(i);
   for (std::size_t l = 0; l < packing.links.size(); ++l)
     if (stays(packing.links[l].i) && stays(packing.links[l].j)) links.push_back(static_cast<std::int32_t>(l));
-  if (grains.empty()) return whole.floppy - whole.trivial;
+  if (std::none_of(grains.begin(), grains.end(), [&](std::int32_t g) { return is_free(packing.part, idx(g)); }))
+    return whole.floppy - whole.trivial;
   const OwnedNetwork backbone = part_of(packing, grains, links);
   return whole.floppy - exact_rank(backbone.view(), law, cell_free).floppy;
 }
@@ -118,7 +120,7 @@ Json clusters_section(const AnalysisInput& input, const AnalysisOptions& options
     }
     alone = static_cast<std::int64_t>(all.size() - members.size());
   } else {
-    for (std::int32_t c : found.cluster_of_grain) alone += c < 0;
+    for (std::size_t i = 0; i < idx(input.network().free); ++i) alone += found.cluster_of_grain[i] < 0;
   }
   return Json{{"sizes", sizes},
               {"hyperstatic", hyperstatic},
@@ -132,7 +134,7 @@ std::vector<Table> clusters_tables(const AnalysisInput& input, const AnalysisOpt
   const Packing<2>& packing = input.packing();
   const RigidClusters found = rigid_clusters(input.network(), input.network_law(options), options.cell_free);
   Table grains{"clusters.grains", {"id", "cluster"}, {}};
-  for (std::size_t i = 0; i < packing.bodies.size(); ++i)
+  for (std::size_t i = 0; i < idx(input.network().free); ++i)
     grains.rows.push_back({static_cast<double>(packing.bodies.id[i]), static_cast<double>(found.cluster_of_grain[i])});
   Table links{"clusters.links", {"i", "j", "s1", "s2", "cluster"}, {}};
   for (std::size_t l = 0; l < packing.links.size(); ++l) {

@@ -28,7 +28,7 @@ std::vector<double> smallest_singular_values(const LinkNetwork& network, Network
   const Packing<2>& packing = network.packing;
   const RigidityMatrix g = rigidity_matrix(network, law, cell_free);
   const auto& radius = packing.bodies.radius;
-  const double mean_radius = std::accumulate(radius.begin(), radius.end(), 0.0) / static_cast<double>(radius.size());
+  const double mean_radius = std::accumulate(radius.begin(), radius.begin() + network.free, 0.0) / network.free;
   std::vector<double> weight(static_cast<std::size_t>(g.rows()), 1.0), scale;
   for (std::size_t r = 0; r < weight.size(); ++r)
     if (g.kind[r] == RowKind::rolling)

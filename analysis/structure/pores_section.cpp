@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "analysis/network/histogram.hpp"
 #include "analysis/structure/fit_json.hpp"
@@ -12,10 +13,13 @@ namespace {
 
 constexpr double kDecadeBin = 0.1;  // width of the bins of log10 R_H
 
+// Walls are left out: a pore is enclosed by grains.
 Pores pores_of(const Packing<2>& packing, const PoreOptions& options) {
-  const auto& b = packing.bodies;
-  return packing.cell ? find_pores(b.position, b.radius, *packing.cell, options)
-                      : find_enclosed_pores(b.position, b.radius, options);
+  const auto grains = static_cast<std::size_t>(LinkNetwork(packing).free);
+  const std::span centre(packing.bodies.position.data(), grains);
+  const std::span radius(packing.bodies.radius.data(), grains);
+  return packing.cell ? find_pores(centre, radius, *packing.cell, options)
+                      : find_enclosed_pores(centre, radius, options);
 }
 
 nlohmann::ordered_json as_json(const Pore& p, const Pores& all) {

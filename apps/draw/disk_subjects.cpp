@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <span>
 
 #include "analysis/figure/nice_numbers.hpp"
 #include "analysis/network/coordination.hpp"
@@ -9,6 +10,7 @@
 #include "analysis/rigidity/clusters.hpp"
 #include "analysis/stiffness/pseudo_inverse.hpp"
 #include "analysis/stiffness/vibration.hpp"
+#include "dem/disks/certificate.hpp"
 #include "dem/input_error.hpp"
 #include "geometry/pores.hpp"
 
@@ -16,6 +18,9 @@ namespace isostat {
 namespace {
 
 using Content = std::unique_ptr<PictureContent>;
+
+// Walls come after them.
+std::size_t grains_of(const AnalysisInput& input) { return static_cast<std::size_t>(input.network().free); }
 
 RichText length_unit(const ForceReading& reading) { return reading.law_known ? rich("`a`") : RichText{}; }
 
@@ -26,7 +31,8 @@ Content forces(const Arguments& arguments, const AnalysisInput& input, const For
   options.scale = scale;
   if (reading.law_known) {
     const bool by_attraction = input.state.law.attraction >= scale;
-    options.scale_label = by_attraction ? rich("`F`_{0}") : rich("`aP`");
+    const bool by_stress = !(heaviest_weight(input.packing(), input.state.scene.gravity) >= scale);
+    options.scale_label = by_attraction ? rich("`F`_{0}") : by_stress ? rich("`aP`") : plain("heaviest weight");
     options.width_at_scale = by_attraction ? kWidthAtF0 : kWidthAtAP;
   }
   if (!reading.cohesive) {
@@ -37,14 +43,17 @@ Content forces(const Arguments& arguments, const AnalysisInput& input, const For
 }
 
 Content velocity(const AnalysisInput& input, const ForceReading& reading, const MotionScale& scale) {
-  const Bodies<2>& b = input.packing().bodies;
-  MotionOptions options{b.velocity, b.spin, rich("`v`"), plain("spin"), {}, {}, {}, scale};
+  std::vector<Vec2> velocity = input.packing().bodies.velocity;
+  std::vector<double> spin = input.packing().bodies.spin;
+  velocity.resize(grains_of(input)), spin.resize(grains_of(input));
+  MotionOptions options{std::move(velocity), std::move(spin), rich("`v`"), plain("spin"), {}, {}, {}, scale};
   if (reading.law_known) options.speed_unit = rich("`a`/`T`_{0}"), options.spin_unit = rich("/`T`_{0}");
   return motion_content(std::move(options));
 }
 
 Content mode(const Arguments& arguments, const AnalysisInput& input, const ForceReading& reading) {
   DrawnMode mode = drawn_mode(arguments, input, reading.law_known ? rich("/`T`_{0}") : RichText{});
+  mode.displacement.resize(grains_of(input)), mode.rotation.resize(grains_of(input));
   return motion_content({std::move(mode.displacement),
                          std::move(mode.rotation),
                          rich("`u`"),
@@ -73,12 +82,14 @@ double signed_area(const Polygon& wall) {
 
 PoreMapOptions pores(const AnalysisInput& input, const ForceReading& reading) {
   const Bodies<2>& b = input.packing().bodies;
+  const std::span<const Vec2> centre(b.position.data(), grains_of(input));
+  const std::span<const double> radius(b.radius.data(), grains_of(input));
   PoreOptions how;
   how.with_arcs = true;
   Pores found;
   try {
-    found = input.packing().cell ? find_pores(b.position, b.radius, *input.packing().cell, how)
-                                 : find_enclosed_pores(b.position, b.radius, how);
+    found = input.packing().cell ? find_pores(centre, radius, *input.packing().cell, how)
+                                 : find_enclosed_pores(centre, radius, how);
   } catch (const std::invalid_argument& error) {
     throw InputError(input.path, 0, "--what", "pores", error.what());
   }
@@ -115,9 +126,11 @@ std::vector<Content> contents_of(const std::string& what, const Arguments& argum
   double force = 0;
   MotionScale motion;
   for (std::size_t k = 0; k < inputs.size(); ++k) {
-    const Bodies<2>& b = inputs[k].packing().bodies;
+    std::vector<Vec2> velocity = inputs[k].packing().bodies.velocity;
+    std::vector<double> spin = inputs[k].packing().bodies.spin;
+    velocity.resize(grains_of(inputs[k])), spin.resize(grains_of(inputs[k]));
     force = std::max(force, readings[k].scale);
-    motion = larger(motion, motion_scale(b.velocity, b.spin));
+    motion = larger(motion, motion_scale(velocity, spin));
   }
   std::vector<Content> contents;
   for (std::size_t k = 0; k < inputs.size(); ++k)
@@ -141,7 +154,7 @@ Drawing drawing_of_disks(const Arguments& arguments, const std::vector<AnalysisI
   for (const AnalysisInput& input : inputs) {
     if (input.packing_3d)
       throw InputError(input.path, 0, "", "", "is a packing in 3D; draw shows packings in the plane");
-    if (input.grains() == 0) throw InputError(input.path, 0, "", "", "has no grains to draw");
+    if (input.packing().bodies.size() == 0) throw InputError(input.path, 0, "", "", "has no grains to draw");
     if (input.has_law() != inputs[0].has_law())
       throw InputError(input.path, 0, "", "",
                        "is not of one kind with " + inputs[0].path + ": only one has a law, and units");

@@ -29,9 +29,11 @@ std::vector<std::size_t> triangle_of_body(const TrianglePacking& packing) {
 std::vector<Content> forces(const Arguments& arguments, const std::vector<AnalysisInput>& inputs) {
   TriangleForceOptions options;
   options.convention = convention_of(arguments);
-  options.scale = 0;
+  std::vector<double> means;  // the middle one: a series may hold a violent impact, and frames without a force
   for (const AnalysisInput& input : inputs)
-    options.scale = std::max(options.scale, mean_overlap_force(grains_of(input)));
+    if (const double mean = mean_overlap_force(grains_of(input)); mean > 0) means.push_back(mean);
+  std::sort(means.begin(), means.end());
+  options.scale = means.empty() ? 0 : means[means.size() / 2];
   std::vector<Content> contents;
   for (std::size_t k = 0; k < inputs.size(); ++k) contents.push_back(triangle_forces_content(options));
   return contents;

@@ -43,13 +43,17 @@ double force_scale(const DiskLaw& law, const ImposedStress& imposed, double heav
   return scale > 0 ? scale : 1.0;
 }
 
-Certificate evaluate_certificate(const Packing<2>& packing, const DiskLaw& law, const ImposedStress& imposed,
-                                 const EquilibriumScene& tolerance, double gravity) {
-  Certificate c;
+double heaviest_weight(const Packing<2>& packing, double gravity) {
   double heaviest = 0;  // [m]
   for (std::size_t k = 0; k < packing.bodies.size(); ++k)
     if (is_free(packing.part, k)) heaviest = std::max(heaviest, packing.bodies.mass[k]);
-  c.force_scale = force_scale(law, imposed, heaviest * gravity);
+  return heaviest * gravity;
+}
+
+Certificate evaluate_certificate(const Packing<2>& packing, const DiskLaw& law, const ImposedStress& imposed,
+                                 const EquilibriumScene& tolerance, double gravity) {
+  Certificate c;
+  c.force_scale = force_scale(law, imposed, heaviest_weight(packing, gravity));
   c.tolerance_force = tolerance.force;
   c.tolerance_pressure = tolerance.pressure;
   c.tolerance_kinetic = tolerance.kinetic_energy;

@@ -10,6 +10,9 @@ namespace isostat {
 // positive.
 double force_scale(const DiskLaw& law, const ImposedStress& imposed, double heaviest_weight = 0);
 
+// That of a packing, under a gravity [a/T0^2] along -y.
+double heaviest_weight(const Packing<2>& packing, double gravity);
+
 // O(grains + links). The kinetic energy is a mean over grains; without cohesion the grains that touch nothing do not
 // count (they keep their spin for ever) unless none touches, and without friction spins do not count (no force acts on
 // them). The pressure criterion applies to the directions with an imposed stress. Walls and lids are not judged: they

@@ -160,6 +160,10 @@ void check_surroundings(const Scene& scene, std::vector<SceneConflict>& found) {
                      quoted_text("newton"),
                      "static solves know neither weight nor walls: \"none\" or \"drag\" with a container",
                      {"finish.method", "container.shape", "gravity"}});
+  if (!scene.grains.file.empty()) return;  // its grains say the time step
+  const GrainsScene& g = scene.grains;
+  const double dt = time_step(resolve(scene.law), scene.step.fraction, g.diameter_max);
+  for (SceneConflict& c : wall_motion_conflicts(scene, dt, g.diameter_min)) found.push_back(std::move(c));
 }
 
 }  // namespace

@@ -138,7 +138,6 @@ State<Disks> state_from_file(const Scene& scene, std::uint64_t seed) {
   for (const Link<2>& l : touching_links(state.packing, 0.0)) {
     const auto i = static_cast<std::size_t>(l.i), j = static_cast<std::size_t>(l.j);
     const double sum = b.radius[i] + b.radius[j];
-    if (!is_free(state.packing.part, i) && !is_free(state.packing.part, j)) continue;
     if (l.gap < -kMostOverlapAtStart * sum)
       throw InputError(path, 0, "grains.file", path,
                        "grains " + std::to_string(b.id[i]) + " and " + std::to_string(b.id[j]) + " overlap by " +
@@ -153,6 +152,8 @@ State<Disks> state_from_file(const Scene& scene, std::uint64_t seed) {
     throw InputError(path, 0, "step.fraction", real_text(scene.step.fraction),
                      "unstable for the smallest grain of this file, diameter " + real_text(smallest) + " a; below " +
                          real_text(bound));
+  for (const SceneConflict& c : wall_motion_conflicts(scene, state.time_step, smallest))
+    throw InputError("scene", 0, c.key, c.value, c.rule);
   if (state.packing.cell) state.cell_motion.reference_length = state.packing.cell->length;
   return state;
 }

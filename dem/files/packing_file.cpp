@@ -109,7 +109,7 @@ void read_triangles_into(PackingFile& file, const std::string& path, const Packi
 }
 
 void take(PackingFile& file, State<Disks> state) { file.state = std::move(state); }
-[[maybe_unused]] void take(PackingFile& file, State<TriangleGrains> state) {
+void take(PackingFile& file, State<TriangleGrains> state) {
   file.corners = placed_triangles(state.packing);
   file.triangles = std::move(state);
 }

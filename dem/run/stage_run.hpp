@@ -129,18 +129,19 @@ class StageRun {
     StageOutcome outcome{s_.progress.stage, true, s_.time, until, waits ? s_.certificate.moving : 0};
     if (end_.met()) return outcome;
     outcome.met = false;
+    const std::string unit = " " + std::string(time_unit(s_.scene.system)) + ": ";
     if (const std::optional<std::string> spoilt = end_.spoilt()) {
       outcome.reason = *spoilt;
       return outcome;
     }
     if (hooks_.max_time > 0 && s_.time >= hooks_.max_time) {
-      outcome.reason = "stopped by --max-time " + std::to_string(hooks_.max_time) + " T0: " + end_.missing();
+      outcome.reason = "stopped by --max-time " + std::to_string(hooks_.max_time) + unit + end_.missing();
       return outcome;
     }
     if (stage_.until != Until::time && s_.time - s_.progress.start_time >= stage_.max_time) {
       outcome.reason = "stage.until = \"" + until +
-                       "\" not met after stage.max_time = " + std::to_string(stage_.max_time) +
-                       " T0: " + end_.missing() + "; raise stage.max_time" + (waits ? " or set finish.method" : "");
+                       "\" not met after stage.max_time = " + std::to_string(stage_.max_time) + unit + end_.missing() +
+                       "; raise stage.max_time" + (waits ? " or set finish.method" : "");
       return outcome;
     }
     return std::nullopt;

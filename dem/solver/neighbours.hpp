@@ -14,7 +14,8 @@
 //   Columns::History   what a pair keeps from step to step; History{} is none
 //   kStride            kernels name body k by kStride k
 //   resize(n), fill(k, bodies, i, j), history(k), remember(k, history), static turned(history)
-//   static inner_skin(displacement of neighbours a step, mean diameter): optional, where the default does not suit
+//   static inner_skin(displacement of neighbours a step, mean diameter), kOuterSkin: optional, where the default skins
+//   do not suit
 #pragma once
 #include <cstdint>
 #include <optional>

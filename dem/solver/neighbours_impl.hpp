@@ -66,7 +66,8 @@ int NeighbourLists<Columns>::chunk_of(std::int32_t body) const {
 // No pair may be listed through its second image: in a tiny cell the skin is what the cell leaves.
 template <class Columns>
 double NeighbourLists<Columns>::outer_skin_for(const Cell& cell) const {
-  const double wanted = lists::kOuterSkin * mean_diameter_;
+  double wanted = lists::kOuterSkin * mean_diameter_;
+  if constexpr (requires { Columns::kOuterSkin; }) wanted = Columns::kOuterSkin * mean_diameter_;
   return cell ? std::min(wanted, std::min(cell->length[0], cell->length[1]) - largest_diameter_ - range_) : wanted;
 }
 

@@ -9,7 +9,6 @@
 #include "geometry/cell_grid.hpp"
 
 namespace isostat {
-namespace {}  // namespace
 
 template <int D>
 double default_gap_tolerance(const Bodies<D>& bodies) {
@@ -46,6 +45,7 @@ std::vector<Link<D>> touching_links(const Packing<D>& packing, double gap_tolera
     ImageShift<D> shift = image;
     for (std::size_t k = 0; k < D; ++k) shift[k] += home[i][k] - home[j][k];
     if (j < i || (j == i && shift <= ImageShift<D>{})) return;
+    if (!is_free(packing.part, i) && !is_free(packing.part, j)) return;
     const double gap = norm(branch(packing, i, j, shift)) - bodies.radius[i] - bodies.radius[j];
     if (!(gap <= gap_tolerance)) return;
     Link<D> link;

@@ -7,7 +7,8 @@
 
 namespace isostat {
 
-// Closed links with their gap, forces zero; sorted by (i, j, shift), i <= j. gap_tolerance [length], >= 0.
+// Closed links with their gap, forces zero; sorted by (i, j, shift), i <= j. Not between bodies of walls. gap_tolerance
+// [length], >= 0.
 template <int D>
 std::vector<Link<D>> touching_links(const Packing<D>& packing, double gap_tolerance);
 

@@ -1,6 +1,7 @@
 // Grains of triangles at rest: forces of beams and of overlaps from positions alone. Certificate, snapshots, energies
 // and stiffness ask here; the kernels (dem/triangles/kernel/) have the same formulas in lanes.
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -23,20 +24,27 @@ inline double grain_area(const TrianglePacking& p, std::size_t g) {
   return area;
 }
 
-// 1/l of a grain, l the root of its area; of the law's own length where it has one. A wall much larger than any free
-// grain is a smooth one and counts as infinitely long: 1/l = 0, so that L_c of a grain against it is 2 l.
+// A wall much larger than any free grain is a smooth one. Those stand last in the order of grains; the neighbour lists
+// hold the others only.
 inline constexpr double kSmoothWall = 16;  // [area of the largest free grain]
-inline std::vector<double> inverse_lengths(const TrianglePacking& p, const TriangleLaw& law) {
-  std::vector<double> areas(p.grains.size()), inverse(p.grains.size());
+inline std::size_t listed_grains(const TrianglePacking& p) {
   double largest = 0;
-  for (std::size_t g = 0; g < areas.size(); ++g) {
-    areas[g] = grain_area(p, g);
-    if (p.grains.part[g] == GrainPart::free) largest = std::max(largest, areas[g]);
-  }
-  for (std::size_t g = 0; g < areas.size(); ++g)
-    inverse[g] = law.overlap_length > 0                                                    ? 1 / law.overlap_length
-                 : p.grains.part[g] != GrainPart::free && areas[g] > kSmoothWall * largest ? 0.0
-                                                                                           : 1 / std::sqrt(areas[g]);
+  for (std::size_t g = 0; g < p.grains.size(); ++g)
+    if (p.grains.part[g] == GrainPart::free) largest = std::max(largest, grain_area(p, g));
+  std::size_t listed = p.grains.size();
+  while (listed > 0 && p.grains.part[listed - 1] != GrainPart::free &&
+         grain_area(p, listed - 1) > kSmoothWall * largest)
+    --listed;
+  return listed;
+}
+
+// 1/l of a grain, l the root of its area; of the law's own length where it has one. A smooth wall counts as infinitely
+// long: 1/l = 0, so that L_c of a grain against it is 2 l.
+inline std::vector<double> inverse_lengths(const TrianglePacking& p, const TriangleLaw& law) {
+  const std::size_t listed = listed_grains(p);
+  std::vector<double> inverse(p.grains.size());
+  for (std::size_t g = 0; g < inverse.size(); ++g)
+    inverse[g] = law.overlap_length > 0 ? 1 / law.overlap_length : g < listed ? 1 / std::sqrt(grain_area(p, g)) : 0.0;
   return inverse;
 }
 // Y / L_c, 1/L_c = (1/l_i + 1/l_j)/2: pressure per area of overlap [g/(cm^2 s^2) per cm].

@@ -29,16 +29,25 @@ void Candidates::look(const GrainStore& store, const Near& near, const Vec2& off
   if (near.place != kNowhere && dot(apart, apart) > hold * hold) return;
   Near found = near;
   found.begin = static_cast<std::uint32_t>(maybe_a_.size());
-  for (std::size_t s = 0; s < store.triangles(near.i); ++s) {
-    const std::size_t a = store.slot(near.i, s);
-    for (std::size_t t = 0; t < store.triangles(near.j); ++t) {
-      const std::size_t b = store.slot(near.j, t);
+  // Only triangles that reach the circle of the other grain.
+  const auto facing = [&](std::size_t g, const Vec2& centre, double radius, std::vector<std::uint32_t>& slots) {
+    slots.clear();
+    for (std::size_t t = 0; t < store.triangles(g); ++t) {
+      const std::size_t k = store.slot(g, t);
+      const double dx = x[k] - centre[0], dy = y[k] - centre[1], most = reach[k] + radius + skin;
+      if (dx * dx + dy * dy <= most * most) slots.push_back(static_cast<std::uint32_t>(k));
+    }
+  };
+  const bool wall = near.place == kNowhere;
+  facing(near.i, store.position(near.j) + offset, wall ? 1e100 : store.tight(near.j), facing_i_);
+  facing(near.j, store.position(near.i) - offset, store.tight(near.i), facing_j_);
+  for (const std::uint32_t a : facing_i_)
+    for (const std::uint32_t b : facing_j_) {
       const double dx = x[b] + offset[0] - x[a], dy = y[b] + offset[1] - y[a], most = reach[a] + reach[b] + skin;
       if (dx * dx + dy * dy > most * most) continue;
-      maybe_a_.push_back(static_cast<std::uint32_t>(a)), maybe_b_.push_back(static_cast<std::uint32_t>(b));
+      maybe_a_.push_back(a), maybe_b_.push_back(b);
       maybe_x_.push_back(offset[0]), maybe_y_.push_back(offset[1]);
     }
-  }
   found.count = static_cast<std::uint32_t>(maybe_a_.size()) - found.begin;
   if (found.count > 0) near_.push_back(found);
 }
@@ -93,7 +102,7 @@ void Candidates::build(const GrainStore& store, const Lists& lists, const Cell& 
                        SeparationKernel separation, double skin, const std::vector<WallSpring>& walls) {
   packs_.clear(), a_.clear(), b_.clear(), of_lane_.clear();
   stiffness_.clear(), offset_x_.clear(), offset_y_.clear(), spring_.clear();
-  most_rows_ = pairs_ = 0;
+  most_rows_ = pairs_ = 0, slots_ = store.slots();
   const auto add = [&](const Near& near, const Vec2& offset, double spring) {
     const std::size_t before = near_.size();
     look(store, near, offset, skin);

@@ -29,6 +29,8 @@ class GrainPairs {
 
   // A step costs 1.4 ns a triangle more for every .001 cm of skin (candidates), a rebuild 80 ns a triangle every skin /
   // displacement steps: the sum is least at the root of kSkin d times the displacement (TRIANGLES.md 2, sides .1-.2).
+  // Sorting and laying out grains anew is dear: a wide outer skin.
+  static constexpr double kOuterSkin = 0.6;  // [mean diameter]
   static double inner_skin(double displacement, double mean_diameter) {
     return std::max(std::sqrt(kSkin * mean_diameter * displacement), kLeastSkin * mean_diameter);
   }
@@ -64,6 +66,19 @@ class Candidates {
   std::size_t most_rows() const { return most_rows_; }
   std::size_t pairs() const { return pairs_; }  // of triangles, without padding
 
+  template <class Visit>  // visit(grain i, grain j, slot a, slot b, offset of j) for every pair of triangles
+  void for_each(Visit&& visit) const {
+    for (std::size_t p = 0; p < packs_.size(); ++p)
+      for (std::size_t l = 0; l < 8; ++l) {
+        const Near& near = of_lane_[8 * p + l];
+        for (std::size_t r = 0; near.i != near.j && r < packs_[p].rows; ++r) {
+          const std::size_t at = packs_[p].first + 8 * r + l;
+          if (a_[at] < slots_)
+            visit(near.i, near.j, a_[at], b_[at], Vec2{{offset_x_[8 * p + l], offset_y_[8 * p + l]}});
+        }
+      }
+  }
+
   // Points the kernel's input at the arrays.
   void show(OverlapInput& in);
   void set_offsets(const Cell& cell);  // the cell moves between rebuilds
@@ -88,12 +103,13 @@ class Candidates {
   AlignedVector<std::uint32_t> a_, b_;
   AlignedVector<double> stiffness_, offset_x_, offset_y_, spring_;  // by lane
   std::vector<Near> of_lane_;                                       // i == j: a lane without grains
-  std::size_t most_rows_ = 0, pairs_ = 0;
+  std::size_t most_rows_ = 0, pairs_ = 0, slots_ = 0;
 
   // Of the group in the making.
   std::vector<Near> near_;
   AlignedVector<std::uint32_t> maybe_a_, maybe_b_;
   AlignedVector<double> maybe_x_, maybe_y_;
+  std::vector<std::uint32_t> facing_i_, facing_j_;
   std::vector<std::uint8_t> flag_;
   std::vector<double> stiffness_of_, spring_of_;
 };

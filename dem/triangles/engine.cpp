@@ -4,8 +4,6 @@
 #include <cmath>
 
 #include "dem/run_error.hpp"
-#include "dem/solver/neighbours_impl.hpp"
-#include "dem/triangles/gear_scheme.hpp"
 #include "dem/triangles/kernel/rows.hpp"
 #include "geometry/base/index.hpp"
 
@@ -15,6 +13,7 @@ namespace {
 using Store = GrainStore;
 
 constexpr double kMostMove = 0.3;             // [smallest circle of a triangle] in one step: beyond, it has blown up
+constexpr double kMostOverlap = 0.5;          // [area of the smaller triangle] beyond, grains pass through each other
 constexpr std::size_t kBlocksPerChunk = 512;  // 4096 grains, as the lists
 
 // Of a packing that no solver has touched they are those of its overlaps.
@@ -80,78 +79,6 @@ void TriangleEngine::cut_chunks() {
   }
 }
 
-// ---- lists ----------------------------------------------------------------------------------------------------------
-
-// Springs by grains in storage order; those at smooth walls, which the lists do not know, go by ids.
-void TriangleEngine::take_wall_springs(std::vector<PairMemory<GrainHistory>>& springs) {
-  wall_springs_.clear();
-  std::erase_if(springs, [&](const PairMemory<GrainHistory>& s) {
-    if (idx(s.j) < store_.size()) return false;
-    wall_springs_.push_back({store_.id[idx(s.i)], store_.id[idx(s.j)], s.history.tangential_force});
-    return true;
-  });
-}
-
-void TriangleEngine::build_lists(const Cell& cell, std::vector<PairMemory<GrainHistory>> springs) {
-  take_wall_springs(springs);
-  try {
-    lists_->build(store_, cell, std::move(springs));
-  } catch (const ListFailure& e) {
-    throw RunError(-1, -1, e.what(), "use more grains (grains.count) or a larger cell (grains.solid_fraction)");
-  }
-  cut_chunks();
-  mark_built();
-  build_candidates(store_, cell);
-}
-
-// As they were when the memory was taken: candidates from where the triangles stood then.
-void TriangleEngine::restore_lists(const State<TriangleGrains>& state) {
-  std::vector<PairMemory<GrainHistory>> springs = state.memory.pairs;
-  take_wall_springs(springs);
-  lists_->restore(store_, state.memory.lists, springs);
-  GrainStore then = store_;
-  then[Store::x] = store_[Store::built_x], then[Store::y] = store_[Store::built_y];
-  then[Store::angle] = store_[Store::built_angle];
-  kernels_.corners(0, then.slots(), then.arrays());
-  then.measure_circles();
-  build_candidates(then, state.memory.lists.inner_length == Vec2{}
-                             ? Cell{}
-                             : Cell{PeriodicCell<2>{state.memory.lists.inner_length}});
-  candidates_.set_offsets(cell_);
-}
-
-// Rows are a function of positions and angles alone, whatever wrapping did to them: a restart has no others.
-void TriangleEngine::mark_built() {
-  kernels_.corners(0, store_.slots(), store_.arrays());
-  store_[Store::built_x] = store_[Store::x], store_[Store::built_y] = store_[Store::y];
-  store_[Store::built_angle] = store_[Store::angle];
-}
-
-void TriangleEngine::build_candidates(const GrainStore& store, const Cell& cell) {
-  candidates_.build(store, *lists_, cell, law_, kernels_.separation, lists_->inner_skin(), wall_springs_);
-}
-
-void TriangleEngine::update_lists(const Cell& cell, double displacement) {
-  if (!lists_->outgrown(displacement)) {
-    lists_->update(store_, cell, displacement);
-    return;
-  }
-  candidates_.store_springs(*lists_);
-  wall_springs_ = candidates_.wall_springs(store_);
-  store_.measure_circles();
-  if (store_.grow_circles()) {
-    lists_->update(store_, cell, displacement);
-    if (!std::isfinite(displacement)) throw ListFailure("a velocity is not a number");
-    cut_chunks();
-    mark_built();
-    build_candidates(store_, cell);
-  } else {  // A circle has grown: everything anew.
-    const std::vector<PairMemory<GrainHistory>> kept = candidates_.springs();
-    lists_.emplace(store_.size(), 0.0, GrainPairs{});
-    build_lists(cell, kept);
-  }
-}
-
 // ---- motion ---------------------------------------------------------------------------------------------------------
 
 void TriangleEngine::start_half_steps() {
@@ -203,70 +130,6 @@ double TriangleEngine::drift(const MotionStep& step) {
     for (int a = 0; a < 2; ++a) drift_tally_.kinetic[a] += t.kinetic[a];
   }
   return dt_ * (std::sqrt(drift_tally_.speed_squared) + drift_tally_.surface_speed);
-}
-
-// Gear's prediction of positions and velocities; ux, uy, uw are at the full step.
-double TriangleEngine::predict() {
-  auto& s = store_;
-  const double h = dt_;
-  double largest = 0;
-  struct Axis {
-    Store::Column r, v, p, b, c, f, g, inverse;
-  };
-  constexpr Axis axes[] = {
-      {Store::x, Store::ux, Store::px, Store::bx, Store::cx, Store::fx, Store::gx, Store::inverse_mass},
-      {Store::y, Store::uy, Store::py, Store::by, Store::cy, Store::fy, Store::gy, Store::inverse_mass},
-      {Store::angle, Store::uw, Store::pw, Store::bw, Store::cw, Store::torque, Store::gw, Store::inverse_inertia}};
-  for (std::size_t k = 0; k < s.free_slots(); ++k) {
-    double moved[3];
-    for (int a = 0; a < 3; ++a) {
-      const Axis& q = axes[a];
-      const double r1 = h * s[q.v][k];
-      const double r2 =
-          0.5 * h * h *
-          (s[q.f][k] * s[q.inverse][k] - (a == 1 ? gravity_ * s[Store::heavy][k] : 0) - drag_ * s[q.v][k]);
-      const double r3 = s[q.b][k], r4 = s[q.c][k];
-      moved[a] = r1 + r2 + r3 + r4;
-      s[q.r][k] += moved[a];
-      s[q.v][k] = s[q.p][k] = (r1 + 2 * r2 + 3 * r3 + 4 * r4) / h;
-      // The predicted acceleration is kept where the corrector finds it.
-      s[q.g][k] = r2 + 3 * r3 + 6 * r4;
-      s[q.b][k] = r3 + 4 * r4;
-    }
-    const double move = std::hypot(moved[0], moved[1]) + s[Store::reach][k] * std::abs(moved[2]);
-    if (!(move <= largest)) largest = move;
-  }
-  kernels_.corners(0, s.free_slots(), s.arrays());
-  return largest;
-}
-
-void TriangleEngine::correct() {
-  if (integrator_ != Integrator::gear) return;
-  auto& s = store_;
-  const double h = dt_;
-  double largest = 0;
-  constexpr Store::Column r[] = {Store::x, Store::y, Store::angle}, v[] = {Store::ux, Store::uy, Store::uw},
-                          p[] = {Store::px, Store::py, Store::pw}, f[] = {Store::fx, Store::fy, Store::torque},
-                          b[] = {Store::bx, Store::by, Store::bw}, c[] = {Store::cx, Store::cy, Store::cw},
-                          g[] = {Store::gx, Store::gy, Store::gw};
-  for (std::size_t k = 0; k < s.free_slots(); ++k) {
-    double moved[3];
-    for (int a = 0; a < 3; ++a) {
-      const double inverse = s[a == 2 ? Store::inverse_inertia : Store::inverse_mass][k];
-      const double now =
-          0.5 * h * h * (s[f[a]][k] * inverse - (a == 1 ? gravity_ * s[Store::heavy][k] : 0) - drag_ * s[p[a]][k]);
-      const double error = now - s[g[a]][k];
-      moved[a] = kGearCorrector[0] * error;
-      s[r[a]][k] += moved[a];
-      s[v[a]][k] += kGearCorrector[1] * error / h;
-      s[p[a]][k] = s[v[a]][k];
-      s[b[a]][k] += kGearCorrector[3] * error;
-      s[c[a]][k] += kGearCorrector[4] * error;
-    }
-    const double move = std::hypot(moved[0], moved[1]) + s[Store::reach][k] * std::abs(moved[2]);
-    if (!(move <= largest)) largest = move;
-  }
-  lists_->add_travel(2.02 * largest);
 }
 
 // Driven grains stand where the container does.
@@ -371,6 +234,25 @@ void TriangleEngine::check_bodies(std::int64_t step) const {
     }
 }
 
-void TriangleEngine::check_overlaps(const Cell&, std::int64_t) const {}
+void TriangleEngine::check_overlaps(const Cell&, std::int64_t step) const {
+  const auto triangle = [this](std::uint32_t slot, const Vec2& offset) {
+    const double* row = store_.rows.data() + kernel::kCornerRow * std::size_t{slot};
+    kernel::TriangleLanes<kernel::Scalar> t;
+    for (int c = 0; c < 3; ++c) t.x[c] = row[2 * c] + offset[0], t.y[c] = row[2 * c + 1] + offset[1];
+    return t;
+  };
+  const auto area = [](const kernel::TriangleLanes<kernel::Scalar>& t) {
+    return 0.5 * ((t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) - (t.x[2] - t.x[0]) * (t.y[1] - t.y[0]))[0];
+  };
+  candidates_.for_each([&](std::size_t i, std::size_t j, std::uint32_t a, std::uint32_t b, const Vec2& offset) {
+    const auto near = triangle(a, {}), far = triangle(b, offset);
+    const double overlap = kernel::overlap_lanes(near, far).area[0];
+    if (overlap > kMostOverlap * std::min(area(near), area(far)))
+      throw RunError(step, store_.id[i],
+                     "a triangle of it overlaps one of grain " + std::to_string(store_.id[j]) + " by " +
+                         std::to_string(overlap) + " cm^2, more than half of it",
+                     "raise law.modulus, or lower stage.pressure or gravity");
+  });
+}
 
 }  // namespace isostat

@@ -2,7 +2,6 @@
 // predictor-corrector), the container, lists of grains and candidates of triangles, overlaps, beams and their failure,
 // and the traffic with a state.
 #pragma once
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>

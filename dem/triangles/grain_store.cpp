@@ -19,8 +19,7 @@ constexpr double kFar = 1e3;      // [cm] between the two triangles of a padding
 void GrainStore::load(const TrianglePacking& p, const TriangleLaw& law, const TriangleMemory& m) {
   const Grains& g = p.grains;
   id = g.id, part_ = g.part, radius_ = g.radius, inverse_length_ = inverse_lengths(p, law);
-  listed_ = g.size();
-  while (listed_ > 0 && part_[listed_ - 1] != GrainPart::free && inverse_length_[listed_ - 1] == 0) --listed_;
+  listed_ = listed_grains(p);
 
   const std::vector<std::int32_t> grain = grain_of(g);
   std::vector<std::vector<std::size_t>> links(g.size());

@@ -92,9 +92,9 @@ class GrainStore {
     cx,
     cy,
     cw,  // Gear: b dt^3/6, c dt^4/24
-    gx,
-    gy,
-    gw,  // Gear: a dt^2/2 as predicted, until it is corrected; the lists may reorder slots in between
+    ax,
+    ay,
+    aw,  // Gear: a dt^2/2 as predicted, until it is corrected
     built_x,
     built_y,
     built_angle,  // where candidates were last looked for

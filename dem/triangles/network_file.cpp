@@ -227,7 +227,12 @@ class TriangleParser {
     const std::string pair = std::string(f[1]) + " " + std::string(f[2]);
     if (link.i == link.j && link.shift == ImageShift<2>{})
       return fault(line, "beam", pair, "a beam cannot join a triangle to itself except through an image (S1 S2)");
-    const Vec2 chord = p.cell ? apart + p.cell->offset(link.shift) : apart;
+    Vec2 chord = p.cell ? apart + p.cell->offset(link.shift) : apart;
+    if (link.i > link.j) {  // as a run keeps them
+      std::swap(link.i, link.j);
+      for (int& shift : link.shift) shift = -shift;
+      chord = Vec2{} - chord;
+    }
     if (!(norm(chord) > 0)) return fault(line, "beam", pair, "the two centroids coincide: a beam needs a direction");
     const ImageShift<2> back{-link.shift[0], -link.shift[1]};
     const bool forward = link.i != link.j ? link.i < link.j : link.shift > back;

@@ -1,14 +1,13 @@
 #include "dem/triangles/overlap_search.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>
 
 #include "dem/triangles/at_rest.hpp"
 #include "dem/triangles/paper_contact.hpp"
+#include "dem/triangles/touching_triangles.hpp"
 #include "geometry/base/index.hpp"
-#include "geometry/cell_grid.hpp"
 #include "geometry/overlap_clip.hpp"
 
 namespace isostat {
@@ -18,64 +17,14 @@ using kernel::OverlapLanes;
 using kernel::Scalar;
 using kernel::TriangleLanes;
 
-struct Circle {
-  Vec2 centre;
-  double radius;
-};
 double cross(const Vec2& u, const Vec2& v) { return u[0] * v[1] - u[1] * v[0]; }
 
-TriangleLanes<Scalar> lanes_of(const std::array<Vec2, 3>& t, const Vec2& offset) {
+TriangleLanes<Scalar> lanes_of(const Triangle& t) {
   TriangleLanes<Scalar> lanes;
-  for (std::size_t k = 0; k < 3; ++k) lanes.x[k] = t[k][0] + offset[0], lanes.y[k] = t[k][1] + offset[1];
+  for (std::size_t k = 0; k < 3; ++k) lanes.x[k] = t.corner[k][0], lanes.y[k] = t.corner[k][1];
   return lanes;
 }
 
-// Circles about the boxes of the grains as they stand.
-std::vector<Circle> circles_of(const TrianglePacking& p, const std::vector<std::array<Vec2, 3>>& corners) {
-  std::vector<Circle> circles(p.grains.size());
-  for (std::size_t g = 0; g < circles.size(); ++g) {
-    Vec2 low{{INFINITY, INFINITY}}, high{{-INFINITY, -INFINITY}};
-    for (auto k = idx(p.grains.begin[g]); k < idx(p.grains.begin[g + 1]); ++k)
-      for (const Vec2& c : corners[k])
-        for (int a = 0; a < 2; ++a) low[a] = std::min(low[a], c[a]), high[a] = std::max(high[a], c[a]);
-    circles[g] = {0.5 * (low + high), 0};
-    for (auto k = idx(p.grains.begin[g]); k < idx(p.grains.begin[g + 1]); ++k)
-      for (const Vec2& c : corners[k]) circles[g].radius = std::max(circles[g].radius, norm(c - circles[g].centre));
-  }
-  return circles;
-}
-
-// Pairs of one pair of grains.
-class PairsOfGrains {
- public:
-  PairsOfGrains(const TrianglePacking& p, const std::vector<std::array<Vec2, 3>>& corners,
-                std::vector<TrianglePair>& found)
-      : p_(p), corners_(corners), found_(found) {}
-
-  void look(std::size_t g, std::size_t h, const ImageShift<2>& shift) {
-    if (p_.grains.part[g] != GrainPart::free && p_.grains.part[h] != GrainPart::free) return;
-    const Vec2 offset = p_.cell ? p_.cell->offset(shift) : Vec2{};
-    for (std::int32_t a = p_.grains.begin[g]; a < p_.grains.begin[g + 1]; ++a)
-      for (std::int32_t b = p_.grains.begin[h]; b < p_.grains.begin[h + 1]; ++b) {
-        const Vec2 d = p_.bodies.position[idx(b)] + offset - p_.bodies.position[idx(a)];
-        const double reach = p_.bodies.radius[idx(a)] + p_.bodies.radius[idx(b)];
-        if (dot(d, d) > reach * reach) continue;
-        const auto& near = corners_[idx(a)];
-        const OverlapLanes<Scalar> o = kernel::overlap_lanes(lanes_of(near, {}), lanes_of(corners_[idx(b)], offset));
-        if (!(o.area[0] > 0)) continue;
-        found_.push_back({static_cast<std::int32_t>(g), static_cast<std::int32_t>(h), shift, a, b, o.area[0],
-                          Vec2{{o.gradient_x[0], o.gradient_y[0]}}, o.rotation_a[0], o.rotation_b[0],
-                          near[0] + Vec2{{o.point_x[0], o.point_y[0]}}});
-      }
-  }
-
- private:
-  const TrianglePacking& p_;
-  const std::vector<std::array<Vec2, 3>>& corners_;
-  std::vector<TrianglePair>& found_;
-};
-
-auto key(const TrianglePair& p) { return std::tie(p.grain_i, p.grain_j, p.shift, p.a, p.b); }
 bool same_grains(const TrianglePair& p, const TrianglePair& q) {
   return p.grain_i == q.grain_i && p.grain_j == q.grain_j && p.shift == q.shift;
 }
@@ -116,69 +65,18 @@ PaperContact paper_force(const TrianglePacking& p, const TriangleLaw& law, const
 }  // namespace
 
 std::vector<TrianglePair> overlapping_triangles(const TrianglePacking& p) {
+  const std::vector<Triangle> triangles = placed_triangles(p);
+  const std::vector<std::int32_t> grain = grain_of(p.grains);
   std::vector<TrianglePair> found;
-  std::vector<std::array<Vec2, 3>> corners(p.bodies.size());
-  for (std::size_t k = 0; k < corners.size(); ++k) corners[k] = corners_of(p, k);
-  const std::vector<Circle> circles = circles_of(p, corners);
-  // Which image of the cell a centre lies in: the grid wants centres inside.
-  const auto image_of = [&p](const Vec2& r, int a) {
-    return p.cell ? static_cast<int>(std::floor(r[a] / p.cell->length[a])) : 0;
-  };
-  const auto wrapped = [&](const Vec2& r) { return p.cell ? r - p.cell->offset({image_of(r, 0), image_of(r, 1)}) : r; };
-  PairsOfGrains pairs(p, corners, found);
-  // Walls may be far larger than grains: those go against all, the others by a grid.
-  double largest = 0;
-  for (std::size_t g = 0; g < circles.size(); ++g)
-    if (p.grains.part[g] == GrainPart::free) largest = std::max(largest, circles[g].radius);
-  std::vector<std::size_t> small, large;
-  std::vector<Vec2> centres;
-  for (std::size_t g = 0; g < circles.size(); ++g)
-    if (p.grains.part[g] != GrainPart::free && circles[g].radius > 2 * largest)
-      large.push_back(g);
-    else
-      small.push_back(g), centres.push_back(wrapped(circles[g].centre)), largest = std::max(largest, circles[g].radius);
-  for (const std::size_t w : large)
-    for (const std::size_t g : small)
-      if (norm(circles[g].centre - circles[w].centre) < circles[g].radius + circles[w].radius)
-        pairs.look(std::min(g, w), std::max(g, w), {});
-  if (!small.empty()) {
-    const Frame<2> frame = frame_of(p.cell, centres);
-    const CellGrid<2> grid(frame, std::max(2 * largest, 1e-300), small.size());
-    const GridMembers<2> members(grid, centres);
-    for (std::size_t m = 0; m < small.size(); ++m) {
-      const std::size_t g = small[m];
-      const std::array<int, 2> at = grid.columns(centres[m]);
-      for (int oy = -1; oy <= 1; ++oy)
-        for (int ox = -1; ox <= 1; ++ox) {
-          std::array<int, 2> c{at[0] + ox, at[1] + oy};
-          ImageShift<2> image{};
-          bool outside = false;
-          for (std::size_t a = 0; a < 2; ++a) {
-            const int n = grid.count(static_cast<int>(a));
-            if (c[a] >= 0 && c[a] < n) continue;
-            outside = outside || !p.cell;
-            image[a] = c[a] < 0 ? -1 : 1;
-            c[a] = c[a] < 0 ? c[a] + n : c[a] - n;
-          }
-          if (outside) continue;
-          const std::size_t box = grid.index(c);
-          for (auto k = idx(members.begin[box]); k < idx(members.begin[box + 1]); ++k) {
-            const std::size_t h = small[idx(members.member[k])];
-            if (h <= g) continue;
-            ImageShift<2> shift = image;
-            for (int a = 0; a < 2; ++a)
-              shift[static_cast<std::size_t>(a)] += image_of(circles[g].centre, a) - image_of(circles[h].centre, a);
-            const Vec2 offset = p.cell ? p.cell->offset(shift) : Vec2{};
-            if (norm(circles[h].centre + offset - circles[g].centre) < circles[g].radius + circles[h].radius)
-              pairs.look(g, h, shift);
-          }
-        }
-    }
+  for (const TriangleTouch& touch : touching_triangles(p, triangles)) {
+    const std::int32_t gi = grain[idx(touch.i)], gj = grain[idx(touch.j)];
+    if (gi == gj) continue;  // its own image: the lists refuse a cell so small
+    const Triangle &near = triangles[idx(touch.i)], far = image_of(triangles[idx(touch.j)], p.cell, touch.shift);
+    const OverlapLanes<Scalar> o = kernel::overlap_lanes(lanes_of(near), lanes_of(far));
+    if (!(o.area[0] > 0)) continue;
+    found.push_back({gi, gj, touch.shift, touch.i, touch.j, o.area[0], Vec2{{o.gradient_x[0], o.gradient_y[0]}},
+                     o.rotation_a[0], o.rotation_b[0], near.corner[0] + Vec2{{o.point_x[0], o.point_y[0]}}});
   }
-  std::sort(found.begin(), found.end(), [](const TrianglePair& x, const TrianglePair& y) { return key(x) < key(y); });
-  found.erase(std::unique(found.begin(), found.end(),
-                          [](const TrianglePair& x, const TrianglePair& y) { return key(x) == key(y); }),
-              found.end());
   return found;
 }
 

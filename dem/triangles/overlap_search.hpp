@@ -1,5 +1,5 @@
-// The overlaps of a packing of triangle grains as it stands, found by a grid of grains: pairs of triangles of different
-// grains with common area, what they add up to, and the loads on the triangles.
+// The overlaps of a packing of triangle grains as it stands: pairs of triangles of different grains with common area
+// (found as dem/triangles/touching_triangles.hpp finds them), what they add up to, and the loads on the triangles.
 #pragma once
 #include <vector>
 

@@ -3,10 +3,37 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dem/run/container_series.hpp"
+#include "dem/state/container_motion.hpp"
+#include "dem/triangles/at_rest.hpp"
 #include "dem/triangles/certificate.hpp"
 #include "dem/triangles/energy.hpp"
+#include "dem/triangles/outflow.hpp"
+#include "geometry/base/index.hpp"
 
 namespace isostat {
+namespace {
+
+Contents contents_of(const State<TriangleGrains>& s, const ContainerPlacement& placement) {
+  const TrianglePacking& p = s.packing;
+  Contents c;
+  for (std::size_t g = 0; g < p.grains.size(); ++g) {
+    if (p.grains.part[g] != GrainPart::free) continue;
+    Vec2 moment{};
+    double mass = 0, area = 0;
+    for (auto k = idx(p.grains.begin[g]); k < idx(p.grains.begin[g + 1]); ++k) {
+      moment += p.bodies.mass[k] * p.bodies.position[k];
+      mass += p.bodies.mass[k];
+      area += triangle_area(p, k);
+    }
+    c.position.push_back((1 / mass) * moment - placement.offset);
+    c.mass.push_back(mass), c.area.push_back(area);
+  }
+  c.above = grains_above_outlet(s);
+  return c;
+}
+
+}  // namespace
 
 std::vector<SeriesColumn> series_columns(const State<TriangleGrains>& s, bool with_energies) {
   const TrianglePacking& p = s.packing;
@@ -32,10 +59,11 @@ std::vector<SeriesColumn> series_columns(const State<TriangleGrains>& s, bool wi
        {"max_moment", s.certificate.max_moment}});
   if (p.cell) add({{"pressure_error", s.certificate.pressure_error}});
   add({{"kinetic_energy_per_grain", s.certificate.kinetic_energy_per_grain}});
-  if (s.scene.container.shape == ContainerShape::hopper)
-    add({{"grains", free},
-         {"grains_left", static_cast<double>(s.surroundings.grains_left)},
-         {"mass_left", s.surroundings.mass_left}});
+  if (s.scene.container.shape == ContainerShape::hopper) add({{"grains", free}});
+  if (s.scene.container.shape != ContainerShape::none) {
+    const ContainerPlacement placement = container_of(s);
+    add_container_columns(columns, s.scene.container, s.surroundings, placement, contents_of(s, placement));
+  }
   double tension = 0, compression = 0, bending = 0;
   for (const Link<2>& link : p.links) {
     tension = std::max(tension, -link.normal_force), compression = std::max(compression, link.normal_force);

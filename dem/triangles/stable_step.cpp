@@ -106,13 +106,15 @@ double bisect(double low, double high, const Stable& stable, double width) {
 }
 
 // The fastest modes set the limit, and give it within a few percent; it is then bracketed with all of them.
+Modes fastest_of(const Modes& modes) { return modes.deforming > kFewModes ? modes.fastest(kFewModes) : modes; }
+
 template <class Radius>
 double limit(const Modes& modes, const Radius& radius) {
   if (modes.deforming == 0) return std::numeric_limits<double>::infinity();
   const auto stable_with = [&](const Modes& m) {
     return [&m, &radius](double dt) { return radius(m, dt) <= 1 + kStableGrowth; };
   };
-  const Modes few = modes.deforming > kFewModes ? modes.fastest(kFewModes) : modes;
+  const Modes few = fastest_of(modes);
   const auto stable = stable_with(few);
   double unstable = kFirst / (std::sqrt(few.squared_frequency[0]) + few.damping.norm());
   while (stable(unstable)) unstable *= kRatio;
@@ -130,14 +132,24 @@ double limit(const Modes& modes, const Radius& radius) {
   return bisect(low, high, all, kCoarseWidth);
 }
 
-}  // namespace
-
-StableStep stable_step(const GrainTemplate& grain, SpinInDampers spin) {
+void refuse_many(const GrainTemplate& grain) {
   if (grain.triangles.size() > kMostTrianglesOfAStep)
     throw InputError("grain", 0, "shape", std::to_string(grain.triangles.size()) + " triangles",
                      "at most " + std::to_string(kMostTrianglesOfAStep) + " for the stable step of a grain");
+}
+
+}  // namespace
+
+StableStep stable_step(const GrainTemplate& grain, SpinInDampers spin) {
+  refuse_many(grain);
   const Modes modes = modes_of(grain, spin);
   return {limit(modes, gear_radius), limit(modes, verlet_radius)};
+}
+
+double stable_step_estimate(const GrainTemplate& grain, Integrator integrator) {
+  refuse_many(grain);
+  const Modes modes = fastest_of(modes_of(grain, SpinInDampers::torque_and_force));
+  return integrator == Integrator::gear ? limit(modes, gear_radius) : limit(modes, verlet_radius);
 }
 
 }  // namespace isostat

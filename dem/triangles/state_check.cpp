@@ -1,5 +1,7 @@
 #include "dem/triangles/state_check.hpp"
 
+#include "dem/triangles/at_rest.hpp"
+
 #include <algorithm>
 #include <string>
 
@@ -130,7 +132,8 @@ std::optional<StateFault> packing_fault(const TrianglePacking& p) {
 }
 
 std::optional<StateFault> memory_fault(const TriangleMemory& m, const TrianglePacking& p) {
-  const std::size_t n = p.bodies.size(), grains = p.grains.size(), walls = wall_triangles(p.grains);
+  const std::size_t n = p.bodies.size(), grains = p.grains.size(), listed = listed_grains(p),
+                    walls = wall_triangles(p.grains);
   const auto& [half_velocity, half_spin, force, torque, derivatives, spin_derivatives, candidate_position,
                candidate_angle, wall_position, wall_angle, pairs, lists] = m;
   for (const std::size_t size :
@@ -141,7 +144,8 @@ std::optional<StateFault> memory_fault(const TriangleMemory& m, const TrianglePa
     if (size != walls && size != 0)
       return StateFault{"solver", "an array has neither one element a triangle of a wall nor none"};
   for (const std::size_t size : {lists.outer_position.size(), lists.inner_position.size()})
-    if (size > grains) return StateFault{"solver", "an array of the lists has more elements than there are grains"};
+    if (size != listed && size != 0)
+      return StateFault{"solver", "an array has neither one element a grain, smooth walls left out, nor none"};
   if (auto f = check_values(half_velocity, "solver/half_velocity")) return f;
   if (auto f = check_values(half_spin, "solver/half_spin")) return f;
   if (auto f = check_values(force, "solver/force")) return f;

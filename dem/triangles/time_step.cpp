@@ -59,10 +59,8 @@ double step_frequency(const GrainTemplate& grain, double modulus) {
 }
 
 double largest_step(const GrainTemplate& grain, double modulus, Integrator integrator) {
-  const StableStep free = stable_step(grain, SpinInDampers::torque_and_force);
-  const bool gear = integrator == Integrator::gear;
-  return std::min(gear ? free.gear : free.verlet,
-                  (gear ? kGearLimit : kVerletLimit) / contact_frequency(grain, modulus));
+  const double limit = integrator == Integrator::gear ? kGearLimit : kVerletLimit;
+  return std::min(stable_step_estimate(grain, integrator), limit / contact_frequency(grain, modulus));
 }
 
 GrainTemplate template_of(const TrianglePacking& packing, std::size_t g, const GrainMaterial& material) {

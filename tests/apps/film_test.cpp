@@ -92,8 +92,13 @@ TEST_F(Film, DrawsGrainsOfTriangles) {
     EXPECT_NE(content(in_folder(what + ".svg")).find(text), std::string::npos) << what;
   }
   EXPECT_EQ(run("draw " + bed + "--what pores -o " + in_folder("x.svg")).code, 2);
-  EXPECT_EQ(run("draw " + bed + bed + "-o " + in_folder("f.html")).code, 0);
-  EXPECT_EQ(count(content(in_folder("f.html")), "= 0.25"), 2u);  // its time [s], above each frame
+  State<TriangleGrains> later = small_bed();
+  later.time = 0.75;
+  write_state(later, in_folder("later.h5"));
+  ASSERT_EQ(run("draw " + bed + in_folder("later.h5") + " -o " + in_folder("f.html")).code, 0);
+  const std::string film = content(in_folder("f.html"));
+  for (const char* time : {"= 0.25", "= 0.75"}) EXPECT_EQ(count(film, time), 1u);  // [s] above its frame
+  EXPECT_EQ(count(film, "<use href=\"#walls\"/>"), 1u);
 }
 
 }  // namespace

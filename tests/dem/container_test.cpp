@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dem/disks/certificate.hpp"
+#include "dem/disks/check.hpp"
 #include "dem/disks/container.hpp"
 #include "dem/disks/engine.hpp"
 #include "dem/disks/outflow.hpp"
@@ -36,8 +37,12 @@ Scene scene_of(ContainerShape shape, int grains) {
   scene.step.fraction = 0.1;
   scene.gravity = 1;
   scene.container.shape = shape;
-  scene.container.width = 8, scene.container.height = 10, scene.container.radius = 5;
-  scene.container.opening = 3, scene.container.wall_size = 0.5;
+  scene.container.wall_size = 0.5;
+  if (shape == ContainerShape::drum)  // keys that do not apply are not kept
+    scene.container.radius = 5;
+  else
+    scene.container.width = 8, scene.container.height = 10;
+  if (shape == ContainerShape::hopper) scene.container.opening = 3;
   return scene;
 }
 
@@ -330,6 +335,54 @@ TEST(RemoveBodies, KeepsOrderAndRenumbers) {
   ASSERT_EQ(s.memory.pairs.size(), 1u);
   EXPECT_EQ(s.memory.pairs[0].j, 1);
   EXPECT_TRUE(s.memory.force.empty());
+}
+
+TEST(ContainerOfDisks, RefusesWhatDisksCannotDo) {
+  Scene scene = scene_of(ContainerShape::hopper, 60);
+  scene.stages = {outflow(Until::empty)};
+  const auto refused = [](const Scene& s) {
+    std::string keys;
+    for (const SceneConflict& c : disk_conflicts(s)) keys += c.key + " ";
+    return keys;
+  };
+  EXPECT_EQ(refused(scene), "");
+  Scene bad = scene;
+  bad.container.walls = ContainerWalls::smooth;
+  EXPECT_EQ(refused(bad), "container.walls ");
+  bad = scene, bad.output.energies = true;
+  EXPECT_EQ(refused(bad), "output.energies ");
+  bad = scene, bad.finish.method = Finish::newton;
+  EXPECT_EQ(refused(bad), "finish.method ");
+  bad = scene, bad.law.normal_stiffness = 60;  // enough for a grain alone, not for those at the bottom
+  EXPECT_EQ(refused(bad), "law.normal_stiffness ");
+  bad = scene, bad.stages[0].container.vibration_amplitude = 0.1, bad.stages[0].container.vibration_frequency = 60;
+  EXPECT_EQ(refused(bad), "stage.0.vibration_frequency ");
+}
+
+// Grains that rest in a hopper are started from, walls and all; a bare packing gets the container of its scene.
+TEST(ContainerOfDisks, StartsFromAFile) {
+  Scene scene = scene_of(ContainerShape::hopper, 30);
+  scene.container.opening = 5;
+  scene.stages = {timed(15)};
+  scene.stages[0].container.vibration_amplitude = 0.1, scene.stages[0].container.vibration_frequency = 0.37;
+  State<Disks> filled = initial_disks(scene, 1);
+  run_stages(filled, {}, {});
+  const TemporaryFolder folder;
+  const std::string path = folder / "filled.h5";
+  write_state(filled, path);
+  Scene flow = scene;
+  flow.grains.file = path;
+  flow.stages = {outflow(Until::empty)};
+  State<Disks> s = initial_disks(flow, 1);
+  EXPECT_EQ(s.surroundings.start_offset[1], filled.surroundings.start_offset[1]);
+  EXPECT_NE(s.surroundings.start_offset[1], 0);
+  EXPECT_EQ(count(s, GrainPart::wall), count(filled, GrainPart::wall));
+  EXPECT_GT(count(s, GrainPart::lid), 0u);
+  const RunOutcome outcome = run_stages(s, {}, {});
+  EXPECT_TRUE(outcome.all_met()) << outcome.stages.back().reason;
+
+  flow.container.opening = 4;
+  EXPECT_THROW(initial_disks(flow, 1), InputError);
 }
 
 TEST(ContainerOfDisks, IsRefusedWhereTheGrainsHaveNoRoom) {

@@ -174,10 +174,9 @@ struct Fixture<TriangleGrains> {
 
   static std::vector<Variant<TriangleGrains>> large(int count) {
     Moving mixed;
-    mixed.count = count, mixed.shapes = "square,L", mixed.law = failing(BeamFailure::break_),
-    mixed.solid_fraction = 0.4;
+    mixed.count = count, mixed.shapes = "square,L", mixed.law = failing(BeamFailure::break_), mixed.speed = 40;
     Moving yielding = shaken(count, ContainerWalls::grains), gear = shaken(count, ContainerWalls::smooth);
-    yielding.law = failing(BeamFailure::yield);
+    yielding.law = failing(BeamFailure::yield), yielding.speed = 40;
     gear.integrator = Integrator::gear;
     for (Moving* m : {&mixed, &yielding, &gear}) m->solid_fraction = 0.3;  // room is found soon
     std::vector<Variant<TriangleGrains>> list{variant("breaking, free cell", mixed),

@@ -26,19 +26,18 @@ ISOSTAT_INLINE V small_turn(V s) {
   p = mul_add<V>(p, z, V(3.0 / 40)), p = mul_add<V>(p, z, V(1.0 / 6));
   return mul_add<V>(p * z, s, s);
 }
-// Each lane by its own size: what its neighbours do, or padding does, must not show in its last bit.
 template <class V>
 ISOSTAT_INLINE V turn_of(V sine, V cosine) {
-  const V small(kSmallTurn);
-  const V turn = small_turn(sine);
-  if (!any_of(max(sine, -sine) > small || cosine < V(0.0))) return turn;
+  const V small(kSmallTurn), series = small_turn(sine);
+  if (!any_of(max(sine, -sine) > small || cosine < V(0.0))) return series;
+  // Lane by lane: what one grain feels does not depend on its neighbours in the block.
   constexpr std::size_t width = V::size();
-  double s[width], c[width], angle[width];
+  double s[width], c[width], turn[width];
   sine.copy_to(s, stdx::element_aligned), cosine.copy_to(c, stdx::element_aligned);
-  turn.copy_to(angle, stdx::element_aligned);
+  series.copy_to(turn, stdx::element_aligned);
   for (std::size_t w = 0; w < width; ++w)
-    if (std::abs(s[w]) > kSmallTurn || c[w] < 0) angle[w] = std::atan2(s[w], c[w]);
-  return V(angle, stdx::element_aligned);
+    if (std::abs(s[w]) > kSmallTurn || c[w] < 0) turn[w] = std::atan2(s[w], c[w]);
+  return V(turn, stdx::element_aligned);
 }
 
 template <class V, bool kDamping, bool kVirial>

@@ -347,5 +347,24 @@ TEST(ForceConvention, DisksTouchedOnlyByUnstressedLinksAreGrey) {
   EXPECT_EQ(disk_shades(p, {}, {}), std::vector(4, plain));
 }
 
+// Scales and shades are those of the grains, whatever the size of wall disks; the window holds both.
+TEST(PictureOfAContainer, IsMeasuredByItsGrains) {
+  Packing<2> p;
+  p.bodies.resize(3);
+  p.bodies.id = {0, 1, 2};
+  p.bodies.position = {{{0, 0}}, {{5, 0}}, {{-1, 0}}};
+  p.bodies.radius = {0.5, 2, 0.25};
+  p.part = {GrainPart::free, GrainPart::wall, GrainPart::lid};
+  const Extent extent = extent_of(p);
+  EXPECT_EQ(extent.diameter, 1);
+  EXPECT_GE(extent.high[0], 7);
+  EXPECT_EQ(PicturePen(p, PictureFrame(extent, extent)).largest_diameter(), 1);
+  ForceConvention convention;
+  convention.threshold = 1;
+  EXPECT_EQ(disk_shades(p, convention, {}), (std::vector{DiskShade::unstressed, DiskShade::plain, DiskShade::plain}));
+  p.part.assign(3, GrainPart::wall);  // an emptied hopper
+  EXPECT_GT(extent_of(p).diameter, 1);
+}
+
 }  // namespace
 }  // namespace isostat

@@ -111,7 +111,7 @@ std::size_t count(const std::string& text, const std::string& pattern) {
   return static_cast<std::size_t>(std::distance(std::sregex_iterator(text.begin(), text.end(), r), {}));
 }
 
-TEST(Film, OneFrameShowsAtATime) {
+TEST(FilmCanvas, OneFrameShowsAtATime) {
   const PeriodicCell<2> cell{{{8, 8}}};
   const std::vector<Packing<2>> packings{disk_at({{3, 3}}, cell), disk_at({{4, 4}}, cell), disk_at({{5, 5}}, cell)};
   const PictureSeries series = series_of(packings);
@@ -131,7 +131,7 @@ TEST(Film, OneFrameShowsAtATime) {
 }
 
 // Each frame is visible for its third of 0.6 s.
-TEST(Film, SvgMovesByItself) {
+TEST(FilmCanvas, SvgMovesByItself) {
   const std::vector<Packing<2>> packings{disk_at({{3, 0}}), disk_at({{4, 0}}), disk_at({{5, 0}})};
   const std::string text = film(FilmKind::svg, series_of(packings));
   EXPECT_EQ(
@@ -142,6 +142,22 @@ TEST(Film, SvgMovesByItself) {
   EXPECT_EQ(count(text, "values=\"none;inline\" keyTimes=\"0;0.666667\""), 1u);
   EXPECT_EQ(count(text, "<script"), 0u);
   EXPECT_TRUE(text.ends_with("</svg>\n"));
+}
+
+// What rests is written once.
+TEST(FilmCanvas, UsesAGroupAgain) {
+  FilmCanvas canvas(FilmKind::svg, {{100, 100}}, 3, 5);
+  for (int k = 0; k < 3; ++k) {
+    canvas.begin_frame();
+    canvas.begin_group("walls");
+    for (int n = 0; n < 4; ++n) canvas.rectangle({10.0 * n + (k == 2 ? 1 : 0), 0, 5, 5}, {kWall, std::nullopt});
+    canvas.end_group();
+    canvas.end_frame();
+  }
+  const std::string text = canvas.finish();
+  EXPECT_EQ(count(text, "<g id=\"walls"), 2u);
+  EXPECT_EQ(count(text, "<use href=\"#walls\"/>"), 1u);
+  EXPECT_LT(text.find("<use"), text.find("x=\"11\""));
 }
 
 }  // namespace

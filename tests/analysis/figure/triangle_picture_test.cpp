@@ -40,7 +40,7 @@ RecordingCanvas drawn(const TrianglePacking& p, Content content) {
 
 std::size_t areas_of(const RecordingCanvas& canvas, const Color& fill) {
   return static_cast<std::size_t>(std::count_if(canvas.areas.begin(), canvas.areas.end(), [&](const auto& a) {
-    return a.group == "grains" && *a.paint.fill == fill;
+    return (a.group == "grains" || a.group == "walls") && *a.paint.fill == fill;
   }));
 }
 std::size_t segments_in(const RecordingCanvas& canvas, const std::string& group) {
@@ -56,9 +56,10 @@ TEST(TrianglePicture, GrainsAreFilledAndOutlined) {
   RecordingCanvas canvas = drawn(p, triangle_grains_content());
   EXPECT_EQ(areas_of(canvas, kGrain), 4u);
   EXPECT_EQ(areas_of(canvas, kWall), 4u);
-  EXPECT_EQ(segments_in(canvas, "grains"), 8u);  // four sides each; the seams are inside
+  EXPECT_EQ(segments_in(canvas, "grains"), 4u);  // the sides; the seams are inside
+  EXPECT_EQ(segments_in(canvas, "walls"), 4u);
   std::size_t dashed = 0;
-  for (const auto& line : canvas.lines) dashed += line.group == "grains" && !line.stroke.dash.empty();
+  for (const auto& line : canvas.lines) dashed += line.group == "walls" && !line.stroke.dash.empty();
   EXPECT_EQ(dashed, 4u);
   double sides = 0, area = 0;
   for (const auto& s : canvas.drawn_segments) sides += norm(s.mark.to - s.mark.from);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 #include <random>
 
 #include "dem/files/packing_file.hpp"
@@ -67,7 +68,8 @@ TEST(TriangleNetwork, TrianglesOfAGrainBecomeContiguous) {
       "triangle 5 1 0 0 1 0 0 1\ntriangle 6 2 5 0 5 1 6 0\ntriangle 4 1 1 0 1 1 0 1\nbeam 4 5\n", "t.net");
   EXPECT_EQ(file.packing.bodies.id, (std::vector<std::int64_t>{5, 4, 6}));
   EXPECT_EQ(file.packing.grains.begin, (std::vector<std::int32_t>{0, 2, 3}));
-  EXPECT_EQ(file.packing.links[0].i, 1);
+  EXPECT_EQ(file.packing.links[0].i, 0);  // the earlier one first, as a run keeps them
+  EXPECT_NEAR(file.packing.beams[0].rest_angle_i, -std::numbers::pi / 4, 1e-15);
   EXPECT_EQ(file.triangles[2].corner[1], (Vec2{{6, 0}}));  // made anticlockwise
 }
 
