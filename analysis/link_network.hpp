@@ -24,18 +24,18 @@ struct AreaPair {
 struct AreaLink {
   std::vector<AreaPair> pairs;
   std::int32_t grain_i = 0, grain_j = 0;
-  ImageShift<2> shift{};  // of grain j
-  double area = 0;        // A [cm^2]
-  double stiffness = 0;   // Y / L_c: dp = -stiffness dA
-  double pressure = 0;    // p = Y A / L_c [dyn/cm]
+  ImageShift<2> shift{};                                  // of grain j
+  double area = 0;                                        // A [cm^2]
+  double stiffness = 0;                                   // Y / L_c: dp = -stiffness dA
+  double pressure = 0;                                    // p = Y A / L_c [dyn/cm]
   double tangential_force = 0, tangential_stiffness = 0;  // of friction
 };
 
 struct LinkNetwork {
-  const Packing<2>& packing;           // the free bodies first; links (of triangles: beams alone)
-  std::int32_t free = 0;               // bodies from here on are held: they have no columns
-  std::span<const AreaLink> areas;     // link l of G, l >= packing.links.size(), is area l - packing.links.size()
-  std::span<const Triangle> corners;   // of the bodies
+  const Packing<2>& packing;            // the free bodies first; links (of triangles: beams alone)
+  std::int32_t free = 0;                // bodies from here on are held: they have no columns
+  std::span<const AreaLink> areas;      // link l of G, l >= packing.links.size(), is area l - packing.links.size()
+  std::span<const Triangle> corners;    // of the bodies
   std::span<const std::int32_t> grain;  // of the bodies
 
   // Implicit: every packing of disks is a network. With walls in it, put_free_first() comes before.
@@ -72,10 +72,11 @@ struct OwnedNetwork {
   LinkNetwork view() const { return {packing, free, areas, corners, grain}; }
 };
 
-// Bodies are the triangles in the order of the state, free ones first. corners: of each triangle, anticlockwise. Two grains with one Overlap in the packing are one link, whatever the pieces
-// of their overlap (the law sums over them); with as many as there are connected pieces, each is a link (a network).
-// Forces of overlaps by the law `overlap-energy` from the area as it is, of springs as the state has them.
+// Bodies are the triangles in the order of the state, free ones first. corners: of each triangle, anticlockwise. Two
+// grains with one Overlap in the packing are one link, whatever the pieces of their overlap (the law sums over them);
+// with as many as there are connected pieces, each is a link (a network). Forces of overlaps by the law
+// `overlap-energy` from the area as it is, of springs as the state has them.
 OwnedNetwork triangle_network(const TrianglePacking& packing, const std::vector<Triangle>& corners,
-                                 const TriangleLaw& law);
+                              const TriangleLaw& law);
 
 }  // namespace isostat

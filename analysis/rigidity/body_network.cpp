@@ -112,8 +112,7 @@ Rows<F> body_rows(const LinkNetwork& network, NetworkLaw law, bool cell_free, co
   }
   for (std::size_t a = 0; a < network.areas.size(); ++a)
     for (const RowKind kind : kRowKinds)
-      if (rows_of_area(law)[kind])
-        area_row(rows, packing.links.size() + a, kind, network, cell_free, bodies, geometry);
+      if (rows_of_area(law)[kind]) area_row(rows, packing.links.size() + a, kind, network, cell_free, bodies, geometry);
   return rows;
 }
 

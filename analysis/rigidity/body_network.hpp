@@ -15,9 +15,9 @@
 
 namespace isostat {
 
-// Rows of one packing between its rigid bodies, in the order of G; rows inside a body, and blocks of held ones, are left
-// out. A body and its own
-// image make one block; a row through an image has one of the strain (body number bodies.count) if the cell is free.
+// Rows of one packing between its rigid bodies, in the order of G; rows inside a body, and blocks of held ones, are
+// left out. A body and its own image make one block; a row through an image has one of the strain (body number
+// bodies.count) if the cell is free.
 template <class F>
 Rows<F> body_rows(const LinkNetwork& network, NetworkLaw law, bool cell_free, const RigidBodies& bodies,
                   const FieldGeometry<F>& geometry);

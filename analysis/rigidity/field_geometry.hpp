@@ -18,7 +18,7 @@ template <class F>
 struct FieldGeometry {
   std::vector<FieldVec<F>> position;
   std::vector<F> radius;
-  FieldVec<F> cell{};  // zero when isolated
+  FieldVec<F> cell{};                              // zero when isolated
   std::vector<std::array<FieldVec<F>, 3>> corner;  // of triangles; `position` is then their centroids
 
   FieldVec<F> offset(const ImageShift<2>& s) const {

@@ -119,7 +119,7 @@ std::vector<char> dependent_columns(const LinkNetwork& network, NetworkLaw law, 
   std::vector<std::size_t> column_of_body(idx(problem.bodies.count));
   for (std::size_t i = idx(network.free); i-- > 0;)
     if (problem.bodies.body_of[i] != RigidBodies::held)
-    column_of_body[idx(problem.bodies.body_of[i])] = i * idx(layout.per_body);
+      column_of_body[idx(problem.bodies.body_of[i])] = i * idx(layout.per_body);
 
   const auto per_body = idx(layout.per_body);
   const FieldGeometry<F> geometry = exact_geometry<F>(network);

@@ -20,7 +20,7 @@ namespace isostat {
 struct RigidBodies {
   static constexpr std::int32_t held = -1;  // the number of all bodies with a grain that is held: without dofs
   std::vector<std::int32_t> body_of;        // grain -> body, bodies numbered 0.. by their first grain
-  std::vector<ImageShift<2>> placement;  // grain -> image a_i: x_i = r_i + a_i L lies in the frame of its body
+  std::vector<ImageShift<2>> placement;     // grain -> image a_i: x_i = r_i + a_i L lies in the frame of its body
   std::int32_t count = 0;
 
   bool same(const Link<2>& link) const { return body_of[idx(link.i)] == body_of[idx(link.j)]; }

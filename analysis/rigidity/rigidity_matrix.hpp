@@ -8,8 +8,8 @@
 
 namespace isostat {
 
-// Compressed rows. Row order: links in storage order, then overlaps, and within a link N, T, M as far as kept. The normal
-// row of an overlap is the rate at which its area shrinks, conjugate to the pressure.
+// Compressed rows. Row order: links in storage order, then overlaps, and within a link N, T, M as far as kept. The
+// normal row of an overlap is the rate at which its area shrinks, conjugate to the pressure.
 struct RigidityMatrix {
   DofLayout layout;
   std::vector<std::int64_t> row_start;    // size rows() + 1

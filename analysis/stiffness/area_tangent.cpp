@@ -40,8 +40,7 @@ struct Moved {
   DualPoint centre;
 };
 Moved moved(const Triangle& t, const Vec2& origin, std::size_t which) {
-  const Vec2 centre =
-      (1.0 / 3) * ((t.corner[0] - origin) + (t.corner[1] - origin) + (t.corner[2] - origin));
+  const Vec2 centre = (1.0 / 3) * ((t.corner[0] - origin) + (t.corner[1] - origin) + (t.corner[2] - origin));
   const auto point = [&](const Vec2& at) {
     DualPoint p;
     for (std::size_t a = 0; a < 2; ++a) {

@@ -18,7 +18,8 @@ std::vector<NullVector> floppy_modes(const LinkNetwork& network, NetworkLaw law,
 
 // Self-stress states, first those that live on one rigid cluster each, then those that do not (gears): the first `most`
 // of H. Orthogonal to each other.
-std::vector<NullVector> self_stress_states(const LinkNetwork& network, NetworkLaw law, bool cell_free, std::size_t most);
+std::vector<NullVector> self_stress_states(const LinkNetwork& network, NetworkLaw law, bool cell_free,
+                                           std::size_t most);
 
 // Link forces split as f = balancing + self_stress: the first is G x and balances the same load, the second is in
 // null G^T; the two are orthogonal.

@@ -39,8 +39,7 @@ std::vector<LinkTangent> link_tangents(const LinkNetwork& network, NetworkLaw ne
   const RigidityMatrix g = rigidity_matrix(network, network_law, false);
   const std::vector<double> stiffness = row_stiffness(network, g, law);
   for (std::size_t r = 0; r < stiffness.size(); ++r)
-    if (!network.is_area(idx(g.link_of_row[r])))
-      tangents[idx(g.link_of_row[r])].stiffness[g.kind[r]] = stiffness[r];
+    if (!network.is_area(idx(g.link_of_row[r]))) tangents[idx(g.link_of_row[r])].stiffness[g.kind[r]] = stiffness[r];
   return tangents;
 }
 
@@ -52,7 +51,9 @@ UnsymmetricMatrix tangent_stiffness(const LinkNetwork& network, NetworkLaw netwo
   for (std::size_t l = 0; l < tangents.size(); ++l) {
     const auto dof = [&](int d) {  // -1: no spin, or held
       const std::int32_t body = d < 3 ? packing.links[l].i : packing.links[l].j;
-      return d % 3 < layout.per_body && network.is_free(body) ? body * static_cast<std::int32_t>(layout.per_body) + d % 3 : -1;
+      return d % 3 < layout.per_body && network.is_free(body)
+                 ? body * static_cast<std::int32_t>(layout.per_body) + d % 3
+                 : -1;
     };
     for (int c = 0; c < 6; ++c) {
       if (dof(c) < 0) continue;

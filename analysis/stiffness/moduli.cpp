@@ -18,8 +18,7 @@ std::array<std::vector<double>, 3> strain_velocities(const LinkNetwork& network,
   for (std::size_t row = 0; row < s[0].size(); ++row) {
     const auto l = static_cast<std::size_t>(g.link_of_row[row]);
     if (network.is_area(l)) {
-      for (const auto& [body, shift, at] :
-           area_loads(network, network.area(l), g.kind[row] == RowKind::tangential)) {
+      for (const auto& [body, shift, at] : area_loads(network, network.area(l), g.kind[row] == RowKind::tangential)) {
         const Vec2 x = packing.bodies.position[static_cast<std::size_t>(body)] + packing.cell->offset(shift);
         s[0][row] -= at[0] * x[0], s[1][row] -= at[1] * x[1], s[2][row] -= 0.5 * (at[0] * x[1] + at[1] * x[0]);
       }

@@ -10,7 +10,9 @@
 
 namespace isostat {
 
-DiskLaw law_of(const AnalysisInput& input) { return input.has_law() && !input.triangles ? input.state.law : default_network_law(); }
+DiskLaw law_of(const AnalysisInput& input) {
+  return input.has_law() && !input.triangles ? input.state.law : default_network_law();
+}
 
 std::vector<double> dof_masses(const LinkNetwork& network, NetworkLaw network_law) {
   const Packing<2>& packing = network.packing;
