@@ -21,7 +21,7 @@ namespace {
 
 // Friction of one lane, a pair of grains in contact; gives the work of sliding [erg].
 double friction_of(const OverlapInput& in, const OverlapPack& pack, std::size_t lane, std::size_t place,
-                   double pressure) {
+                   double pressure, double virial[2]) {
   const auto row = [&](std::size_t r, WorkSlot slot) { return in.work[kOverlapWork * r + kLanes * slot + lane]; };
   double gx = 0, gy = 0, weight = 0, x = 0, y = 0;
   for (std::size_t r = 0; r < pack.rows; ++r) {
@@ -55,6 +55,7 @@ double friction_of(const OverlapInput& in, const OverlapPack& pack, std::size_t 
     double *on_a = in.loads + kLoadRow * a, *on_b = in.loads + kLoadRow * b;
     on_b[0] += fx, on_b[1] += fy, on_b[2] += (x - in.x[b] - ox) * fy - (y - in.y[b] - oy) * fx;
     on_a[0] -= fx, on_a[1] -= fy, on_a[2] -= (x - in.x[a]) * fy - (y - in.y[a]) * fx;
+    virial[0] += fx * (in.x[b] + ox - in.x[a]), virial[1] += fy * (in.y[b] + oy - in.y[a]);
   }
   return (wanted - spring) / in.spring_stiffness * spring;
 }
@@ -65,6 +66,7 @@ template <class V, ContactLaw kLaw, bool kFriction, bool kVirial>
 ISOSTAT_INLINE OverlapTally overlap_forces_in(const OverlapInput& in) {
   constexpr std::size_t width = V::size();
   OverlapTally tally;
+  double virial[2] = {0, 0};  // of friction
   V virial_x(0.0), virial_y(0.0);
   for (std::size_t p = in.begin; p < in.end; ++p) {
     const OverlapPack pack = in.packs[p];
@@ -117,7 +119,7 @@ ISOSTAT_INLINE OverlapTally overlap_forces_in(const OverlapInput& in) {
         area.copy_to(areas, stdx::element_aligned), pressure.copy_to(pressures, stdx::element_aligned);
         for (std::size_t w = 0; w < width; ++w)
           if (areas[w] > 0)
-            tally.slipped += friction_of(in, pack, lane + w, place + w, pressures[w]);
+            tally.slipped += friction_of(in, pack, lane + w, place + w, pressures[w], virial);
           else
             in.spring[place + w] = 0;
       }
@@ -143,7 +145,7 @@ ISOSTAT_INLINE OverlapTally overlap_forces_in(const OverlapInput& in) {
       }
     }
   }
-  if constexpr (kVirial) tally.virial[0] = reduce(virial_x), tally.virial[1] = reduce(virial_y);
+  if constexpr (kVirial) tally.virial[0] = reduce(virial_x) + virial[0], tally.virial[1] = reduce(virial_y) + virial[1];
   return tally;
 }
 
