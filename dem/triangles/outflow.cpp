@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "dem/state/container_motion.hpp"
 #include "dem/triangles/grain_split.hpp"
 #include "geometry/base/index.hpp"
 
@@ -29,7 +30,7 @@ void open_outlet(State<TriangleGrains>& s) {
 }
 
 bool take_away(State<TriangleGrains>& s) {
-  const double lowest = s.surroundings.start_offset[1] - s.scene.container.drop;
+  const double lowest = outlet_height(s) - s.scene.container.drop;
   std::vector<bool> gone(s.packing.grains.size());
   bool any = false;
   for (std::size_t g = 0; g < gone.size(); ++g) {
@@ -46,10 +47,10 @@ bool take_away(State<TriangleGrains>& s) {
 }
 
 std::size_t grains_above_outlet(const State<TriangleGrains>& s) {
+  const double outlet = outlet_height(s);
   std::size_t count = 0;
   for (std::size_t g = 0; g < s.packing.grains.size(); ++g)
-    count +=
-        s.packing.grains.part[g] == GrainPart::free && sum_of(s.packing, g).height >= s.surroundings.start_offset[1];
+    count += s.packing.grains.part[g] == GrainPart::free && sum_of(s.packing, g).height >= outlet;
   return count;
 }
 
