@@ -17,11 +17,9 @@ namespace isostat::kernel {
 // What a row of a pack leaves behind for the second pass, in lanes.
 enum WorkSlot : std::size_t { kGradX, kGradY, kMomentA, kMomentB, kPointX, kPointY, kArea };
 
-namespace {
-
 // Friction of one lane, a pair of grains in contact; gives the work of sliding [erg].
-double friction_of(const OverlapInput& in, const OverlapPack& pack, std::size_t lane, std::size_t place,
-                   double pressure, double virial[2]) {
+ISOSTAT_INLINE double friction_of(const OverlapInput& in, const OverlapPack& pack, std::size_t lane, std::size_t place,
+                                  double pressure, double virial[2]) {
   const auto row = [&](std::size_t r, WorkSlot slot) { return in.work[kOverlapWork * r + kLanes * slot + lane]; };
   double gx = 0, gy = 0, weight = 0, x = 0, y = 0;
   for (std::size_t r = 0; r < pack.rows; ++r) {
@@ -59,8 +57,6 @@ double friction_of(const OverlapInput& in, const OverlapPack& pack, std::size_t 
   }
   return (wanted - spring) / in.spring_stiffness * spring;
 }
-
-}  // namespace
 
 template <class V, ContactLaw kLaw, bool kFriction, bool kVirial>
 ISOSTAT_INLINE OverlapTally overlap_forces_in(const OverlapInput& in) {
