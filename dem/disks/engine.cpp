@@ -90,11 +90,9 @@ void DiskEngine::load_bodies(const State<Disks>& state) {
 // Where its bodies were built: kept by the memory, else from where they stand.
 void DiskEngine::load_walls(const State<Disks>& state) {
   const std::vector<GrainPart>& part = state.packing.part;
-  const auto stage = static_cast<std::size_t>(state.progress.stage);
-  if (state.progress.started && stage < state.scene.stages.size())
-    container_motion_ = state.scene.stages[stage].container;
+  container_motion_ = container_motion_of(state);
   surroundings_ = state.surroundings, stage_start_ = state.progress.start_time;
-  const ContainerPlacement now = container_at(container_motion_, surroundings_, state.time - stage_start_);
+  const ContainerPlacement now = container_of(state);
   const std::vector<Vec2>& built = state.memory.wall_position;
   for (std::size_t k = 0; k < part.size(); ++k) {
     if (part[k] == GrainPart::free) continue;

@@ -29,13 +29,17 @@ Vec2 velocity_at(const ContainerPlacement& placement, const Vec2& r);  // of the
 // The point r of a placement, where it was built: the inverse of point_at.
 Vec2 built_at(const ContainerPlacement& placement, const Vec2& r);
 
+// What the stage that a state is in does with the container; nothing between stages.
+template <class System>
+ContainerMotionScene container_motion_of(const State<System>& s) {
+  const auto stage = static_cast<std::size_t>(s.progress.stage);
+  return s.progress.started && stage < s.scene.stages.size() ? s.scene.stages[stage].container : ContainerMotionScene{};
+}
+
 // Where the container of a state stands at its time.
 template <class System>
 ContainerPlacement container_of(const State<System>& s) {
-  const auto stage = static_cast<std::size_t>(s.progress.stage);
-  const bool runs = s.progress.started && stage < s.scene.stages.size();
-  return container_at(runs ? s.scene.stages[stage].container : ContainerMotionScene{}, s.surroundings,
-                      s.time - s.progress.start_time);
+  return container_at(container_motion_of(s), s.surroundings, s.time - s.progress.start_time);
 }
 
 // y of the outlet of a hopper, the container's origin.

@@ -35,14 +35,13 @@ TriangleEngine::TriangleEngine(const State<TriangleGrains>& state, const CellCon
       dt_(state.time_step),
       time_(state.time),
       gravity_(state.scene.gravity),
+      motion_(container_motion_of(state)),
       surroundings_(state.surroundings),
       stage_start_(state.progress.start_time),
       begins_(state.memory.half_velocity.empty()),
       kinetic_(control.moves()),
       kernels_(triangle_kernels(overlap_needs_, {law_.damping > 0, control.moves()}, kinetic_, options.isa)),
       team_(options.threads) {
-  const auto stage = static_cast<std::size_t>(state.progress.stage);
-  if (stage < state.scene.stages.size()) motion_ = state.scene.stages[stage].container;
   load(state);
 }
 
@@ -99,7 +98,7 @@ void TriangleEngine::start_half_steps() {
 Advance TriangleEngine::advance(const MotionStep& step, double drag) {
   drag_ = drag;
   double move = integrator_ == Integrator::gear ? predict() : drift(step);
-  time_ += dt_;
+  time_ = step.time;
   move_container();
   move = std::max(move, container_move_);
   const double affine = std::max(std::abs(step.scale[0] - 1), std::abs(step.scale[1] - 1));

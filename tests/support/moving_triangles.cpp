@@ -28,6 +28,7 @@ State<TriangleGrains> moving_triangles(const MovingTriangles& m) {
   scene.container = m.container;
   scene.stages[0].container = m.motion;
   State<TriangleGrains> s = place_triangles(scene, m.seed);
+  s.progress.started = true;  // the stage that moves the container
   Random random(m.seed + 1000);
   const auto draw = [&](double scale) {
     const double x = scale * random.normal();

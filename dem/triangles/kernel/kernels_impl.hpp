@@ -6,10 +6,6 @@
 
 namespace isostat::kernel {
 
-TriangleKernels triangle_kernels_scalar(const OverlapNeeds& overlap, const BeamNeeds& beams, bool kinetic);
-TriangleKernels triangle_kernels_avx2(const OverlapNeeds& overlap, const BeamNeeds& beams, bool kinetic);
-TriangleKernels triangle_kernels_avx512(const OverlapNeeds& overlap, const BeamNeeds& beams, bool kinetic);
-
 namespace {
 
 template <class V, ContactLaw kLaw, bool kFriction, bool kVirial>

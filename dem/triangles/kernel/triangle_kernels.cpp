@@ -1,13 +1,6 @@
 #include "dem/triangles/kernel/triangle_kernels.hpp"
 
 namespace isostat {
-namespace kernel {
-
-TriangleKernels triangle_kernels_scalar(const OverlapNeeds& overlap, const BeamNeeds& beams, bool kinetic);
-TriangleKernels triangle_kernels_avx2(const OverlapNeeds& overlap, const BeamNeeds& beams, bool kinetic);
-TriangleKernels triangle_kernels_avx512(const OverlapNeeds& overlap, const BeamNeeds& beams, bool kinetic);
-
-}  // namespace kernel
 
 TriangleKernels triangle_kernels(const OverlapNeeds& overlap, const BeamNeeds& beams, bool kinetic, Isa isa) {
 #if defined(__x86_64__)

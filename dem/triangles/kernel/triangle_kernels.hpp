@@ -131,6 +131,11 @@ struct TriangleKernels {
   CornerKernel corners;
   SeparationKernel separation;
 };
+namespace kernel {  // of one instruction set
+TriangleKernels triangle_kernels_scalar(const OverlapNeeds& overlap, const BeamNeeds& beams, bool kinetic);
+TriangleKernels triangle_kernels_avx2(const OverlapNeeds& overlap, const BeamNeeds& beams, bool kinetic);
+TriangleKernels triangle_kernels_avx512(const OverlapNeeds& overlap, const BeamNeeds& beams, bool kinetic);
+}  // namespace kernel
 TriangleKernels triangle_kernels(const OverlapNeeds& overlap, const BeamNeeds& beams, bool kinetic, Isa isa);
 
 }  // namespace isostat
