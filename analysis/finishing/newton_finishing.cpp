@@ -60,7 +60,8 @@ class StepLength {
 
 class Settling {
  public:
-  Settling(State<Disks>& state, const FinishingRequest& request, const std::function<void(const SettlingStep&)>& watch)
+  Settling(State<Disks>& state, const FinishingRequest<2>& request,
+           const std::function<void(const SettlingStep&)>& watch)
       : s_(state),
         request_(request),
         network_(state, request),
@@ -232,7 +233,7 @@ class Settling {
   }
 
   State<Disks>& s_;
-  const FinishingRequest& request_;
+  const FinishingRequest<2>& request_;
   SettlingNetwork network_;
   ImplicitStep step_;
   const std::function<void(const SettlingStep&)>& watch_;
@@ -243,7 +244,7 @@ class Settling {
 
 }  // namespace
 
-FinishingReport NewtonFinishing::settle(State<Disks>& state, const FinishingRequest& request) {
+FinishingReport NewtonFinishing::settle(State<Disks>& state, const FinishingRequest<2>& request) {
   return Settling(state, request, watch_).run();
 }
 

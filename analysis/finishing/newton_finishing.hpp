@@ -25,7 +25,7 @@ struct SettlingStep {
 class NewtonFinishing : public StaticSolver<Disks> {
  public:
   explicit NewtonFinishing(std::function<void(const SettlingStep&)> watch = {}) : watch_(std::move(watch)) {}
-  FinishingReport settle(State<Disks>& state, const FinishingRequest& request) override;
+  FinishingReport settle(State<Disks>& state, const FinishingRequest<2>& request) override;
 
  private:
   std::function<void(const SettlingStep&)> watch_;

@@ -44,7 +44,7 @@ Yielding clamped(double trial, double limit) {
 
 }  // namespace
 
-SettlingNetwork::SettlingNetwork(const State<Disks>& state, const FinishingRequest& request)
+SettlingNetwork::SettlingNetwork(const State<Disks>& state, const FinishingRequest<2>& request)
     : law_(state.law), stress_(request.stress), periodic_(state.packing.cell.has_value()) {
   const Frame<2> frame = frame_of(state.packing.cell, state.packing.bodies.position);
   length_ = frame.length;

@@ -25,7 +25,7 @@ enum class Links { act, hold };
 
 class SettlingNetwork {
  public:
-  SettlingNetwork(const State<Disks>& state, const FinishingRequest& request);
+  SettlingNetwork(const State<Disks>& state, const FinishingRequest<2>& request);
 
   std::size_t grains() const { return position_.size(); }
   std::size_t size() const { return 3 * grains() + directions_.size(); }

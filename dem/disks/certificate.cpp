@@ -38,7 +38,7 @@ Motion motion_of(const Packing<2>& packing, const std::vector<BodyLoad>& loads, 
 
 }  // namespace
 
-double force_scale(const DiskLaw& law, const ImposedStress& imposed, double heaviest_weight) {
+double force_scale(const DiskLaw& law, const ImposedStress<2>& imposed, double heaviest_weight) {
   const double scale = std::max({law.attraction, std::abs(largest_stress(imposed).value_or(0.0)), heaviest_weight});
   return scale > 0 ? scale : 1.0;
 }
@@ -50,7 +50,7 @@ double heaviest_weight(const Packing<2>& packing, double gravity) {
   return heaviest * gravity;
 }
 
-Certificate evaluate_certificate(const Packing<2>& packing, const DiskLaw& law, const ImposedStress& imposed,
+Certificate evaluate_certificate(const Packing<2>& packing, const DiskLaw& law, const ImposedStress<2>& imposed,
                                  const EquilibriumScene& tolerance, double gravity) {
   Certificate c;
   c.force_scale = force_scale(law, imposed, heaviest_weight(packing, gravity));

@@ -39,7 +39,7 @@ double heaviest(const Scene& scene) { return largest_diameter(scene) * largest_d
 // F1 [F0] of a stage, a = 1.
 double largest_force(const Scene& scene, const StageScene& stage) {
   double force =
-      std::max({scene.law.attraction, std::abs(largest_stress(imposed_stress(stage)).value_or(0)), heaviest(scene)});
+      std::max({scene.law.attraction, std::abs(largest_stress(imposed_stress<2>(stage)).value_or(0)), heaviest(scene)});
   for (const double p : stage.pressures) force = std::max(force, p);
   return force;
 }

@@ -26,7 +26,7 @@ struct DiskMemory {
   std::vector<Vec2> force;                     // [F0] total, viscous part included
   std::vector<double> torque;                  // [F0 a]
   std::vector<PairMemory<DiskHistory>> pairs;  // any order
-  ListMemory lists;
+  ListMemory<2> lists;
   std::vector<Vec2> wall_position;  // [a] of walls and lids, in storage order, where they were built
 };
 
@@ -34,6 +34,7 @@ class DiskEngine;
 
 struct Disks {
   static constexpr std::string_view name = "disks";
+  static constexpr int dimension = 2;
   using Packing = isostat::Packing<2>;
   using Law = DiskLaw;
   using Memory = DiskMemory;

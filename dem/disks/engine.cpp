@@ -21,7 +21,7 @@ constexpr double kMostOverlap = 0.5;  // [R_i + R_j]
 
 template class NeighbourLists<DiskPairs>;
 
-DiskEngine::DiskEngine(const State<Disks>& state, const CellControl& control, const SolverOptions& options)
+DiskEngine::DiskEngine(const State<Disks>& state, const CellControl<2>& control, const SolverOptions& options)
     : law_(state.law),
       dt_(state.time_step),
       gravity_(state.scene.gravity),
@@ -135,7 +135,7 @@ void DiskEngine::start_half_steps() {
   if (energies_) set_work_due();
 }
 
-Advance DiskEngine::advance(const MotionStep& step, double drag) {
+Advance DiskEngine::advance(const MotionStep<2>& step, double drag) {
   if (energies_ && (step.keep[0] != 1 || step.keep[1] != 1)) brake_ledger(step, drag);
   over_chunks(team_, lists_, motion_tallies_, [&](std::size_t begin, std::size_t end) {
     return motion_kernel_(bodies_, begin, end, step, prediction_, gravity_);
@@ -157,7 +157,7 @@ Advance DiskEngine::advance(const MotionStep& step, double drag) {
 
 void DiskEngine::update_lists(const Cell& cell, double displacement) { lists_.update(bodies_, cell, displacement); }
 
-void DiskEngine::compute_forces(const Cell& cell, const CellFlow& flow, double time_step) {
+void DiskEngine::compute_forces(const Cell& cell, const CellFlow<2>& flow, double time_step) {
   cell_ = cell, flow_ = flow;
   PairForceInput in;
   in.rows = bodies_.rows.data();
@@ -173,7 +173,7 @@ void DiskEngine::compute_forces(const Cell& cell, const CellFlow& flow, double t
   in.time_step = time_step;
   for (int a = 0; a < 2; ++a) in.flow_half[a] = flow_.half[a], in.flow_now[a] = flow_.now[a];
   for (std::uint8_t code = 0; code < 9 && cell; ++code) {
-    const Vec2 offset = cell->offset(image_shift(code));
+    const Vec2 offset = cell->offset(image_shift<2>(code));
     in.offset_x[code] = offset[0], in.offset_y[code] = offset[1];
   }
   force_tally_ = over_groups(team_, lists_, force_tallies_, [&](const PairGroup& group) {
@@ -187,7 +187,7 @@ void DiskEngine::compute_forces(const Cell& cell, const CellFlow& flow, double t
   });
 }
 
-StressSums DiskEngine::sums() const {
+StressSums<2> DiskEngine::sums() const {
   return {{motion_tally_.kinetic[0], motion_tally_.kinetic[1]}, {force_tally_.virial[0], force_tally_.virial[1]}};
 }
 
@@ -211,7 +211,7 @@ void DiskEngine::set_law(const DiskLaw& law, Springs springs) {
 
 Vec2 DiskEngine::branch(std::int32_t i, std::int32_t j, std::uint8_t shift, const Cell& cell) const {
   const Vec2 far = bodies_.position(static_cast<std::size_t>(j)), near = bodies_.position(static_cast<std::size_t>(i));
-  return cell ? far + cell->offset(image_shift(shift)) - near : far - near;
+  return cell ? far + cell->offset(image_shift<2>(shift)) - near : far - near;
 }
 
 void DiskEngine::check_bodies(std::int64_t step) const {
@@ -291,7 +291,7 @@ void DiskEngine::snapshot_links(State<Disks>& s) const {
     if (!touches && !(law_.attraction > 0 && frame.gap < law_.attraction_range)) return;
     const DiskHistory springs = touches ? lists_.columns().history(k) : DiskHistory{};
     Link<2> link;
-    link.i = i, link.j = j, link.shift = image_shift(shift), link.gap = frame.gap;
+    link.i = i, link.j = j, link.shift = image_shift<2>(shift), link.gap = frame.gap;
     link.normal_force = at_rest(law_, frame.gap).force;
     link.tangential_force = springs.tangential_force, link.moment = springs.moment;
     link.kind = kind_of(law_, frame.gap, link.tangential_force, link.moment);

@@ -23,17 +23,17 @@ class DiskEngine {
   using Cell = std::optional<PeriodicCell<2>>;
   static constexpr const char* kListAdvice = "use more grains (grains.count), or lower stage.pressure or step.fraction";
 
-  DiskEngine(const State<Disks>& state, const CellControl& control, const SolverOptions& options);
+  DiskEngine(const State<Disks>& state, const CellControl<2>& control, const SolverOptions& options);
 
   // Without memory the half-step velocities follow from the first forces: compute_forces(), then start_half_steps().
   bool begins() const { return begins_; }
   void start_half_steps();
 
-  Advance advance(const MotionStep& step, double drag);      // all bodies
+  Advance advance(const MotionStep<2>& step, double drag);   // all bodies
   void update_lists(const Cell& cell, double displacement);  // throws ListFailure
-  void compute_forces(const Cell& cell, const CellFlow& flow, double time_step);
+  void compute_forces(const Cell& cell, const CellFlow<2>& flow, double time_step);
   void correct() {}  // of a predictor-corrector: leapfrog has none
-  StressSums sums() const;
+  StressSums<2> sums() const;
   void keep_books();  // of the step that ends, if the ledger is kept
 
   void set_law(const DiskLaw& law, Springs springs);
@@ -50,7 +50,7 @@ class DiskEngine {
   void snapshot_bodies(State<Disks>& state) const;
   void snapshot_links(State<Disks>& state) const;
   Vec2 branch(std::int32_t i, std::int32_t j, std::uint8_t shift, const Cell& cell) const;
-  void brake_ledger(const MotionStep& step, double drag);
+  void brake_ledger(const MotionStep<2>& step, double drag);
   void set_work_due();
   double viscous_power() const;
   double elastic_energy() const;
@@ -69,7 +69,7 @@ class DiskEngine {
   MotionTally motion_tally_;
   PairForceTally force_tally_;
   Cell cell_;                                                                // of the last forces
-  CellFlow flow_;                                                            // of the last forces
+  CellFlow<2> flow_;                                                         // of the last forces
   double smallest_diameter_ = 0, largest_diameter_ = 0, smallest_mass_ = 0;  // [a], [m]
   double prediction_ = 0.5;                                                  // [dt]
   ContainerMotionScene container_motion_;                                    // of the stage

@@ -12,7 +12,7 @@ using kernel::Slot;
 
 // Work of the forces that keep only a part of the velocity: the impulse of each times the mean of the velocities before
 // and after, exactly what the kinetic energy loses. The part due to the rate of the cell is the cell's work.
-void DiskEngine::brake_ledger(const MotionStep& step, double rate) {
+void DiskEngine::brake_ledger(const MotionStep<2>& step, double rate) {
   const double drag = rate * dt_;
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     const double *row = bodies_.row(k), *load = bodies_.load(k);

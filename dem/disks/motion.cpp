@@ -13,8 +13,8 @@ Pair* pairs(double* p) { return reinterpret_cast<Pair*>(__builtin_assume_aligned
 Pair larger(Pair a, Pair b) { return a > b ? a : b; }
 
 template <bool kRotation, bool kFreeCell, bool kWeight>
-MotionTally advance(BodiesStore& bodies, std::size_t begin, std::size_t end, const MotionStep& step, double prediction,
-                    [[maybe_unused]] double gravity) {
+MotionTally advance(BodiesStore& bodies, std::size_t begin, std::size_t end, const MotionStep<2>& step,
+                    double prediction, [[maybe_unused]] double gravity) {
   const double dt = step.time_step, ahead = prediction * dt;
   const Pair keep = {step.keep[0], step.keep[1]};
   const Pair scale = {step.scale[0], step.scale[1]}, drift = {dt * step.half_scale[0], dt * step.half_scale[1]};

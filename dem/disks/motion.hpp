@@ -40,7 +40,7 @@ struct MotionNeeds {
 };
 // prediction [dt]: how far p is ahead of u, see velocity_prediction(). gravity [a/T0^2]: the loads of the next forces
 // begin with the weights, along -y; 0 where none is needed.
-using MotionKernel = MotionTally (*)(BodiesStore&, std::size_t begin, std::size_t end, const MotionStep&,
+using MotionKernel = MotionTally (*)(BodiesStore&, std::size_t begin, std::size_t end, const MotionStep<2>&,
                                      double prediction, double gravity);
 MotionKernel select_motion(MotionNeeds needs);
 

@@ -12,6 +12,7 @@ namespace isostat {
 
 class DiskPairs {
  public:
+  static constexpr int kDimension = 2;
   using Bodies = BodiesStore;
   using History = DiskHistory;
   static constexpr std::uint32_t kStride = kernel::kRowWidth;  // kernels name body k by the offset of its row

@@ -79,8 +79,8 @@ void transfer_memory_array(Io& io, const std::string& name, std::vector<T>& valu
   io.array("/solver/" + name, values, io.count("/solver/" + name, values.size()), unit);
 }
 
-template <class Io>
-void transfer_lists(Io& io, ListMemory& lists, const char* unit) {
+template <class Io, int D>
+void transfer_lists(Io& io, ListMemory<D>& lists, const char* unit) {
   auto& [outer_position, inner_position, outer_length, inner_length, outer_skin, inner_skin, outer_travel,
          inner_travel] = lists;
   transfer_memory_array(io, "outer_position", outer_position, unit);

@@ -27,10 +27,10 @@ struct Element {
   using Scalar = T;
   static Shape shape() { return {}; }
 };
-template <>
-struct Element<Vec2> {
+template <int D>
+struct Element<Vec<D>> {
   using Scalar = double;
-  static Shape shape() { return {2}; }
+  static Shape shape() { return {D}; }
 };
 template <class T, std::size_t N>
 struct Element<std::array<T, N>> {
@@ -73,13 +73,14 @@ class StateWriter {
     frame(path);
     write(path + "/value", in_one_frame(shape_of<T>(count)), values, unit);
   }
-  void box(const std::string& path, const std::optional<PeriodicCell<2>>& cell) {
+  template <int D>
+  void box(const std::string& path, const std::optional<PeriodicCell<D>>& cell) {
     file_.group(path);
-    file_.attribute(path, "dimension", std::int64_t{2});
-    file_.attribute(path, "boundary", std::vector<std::string>(2, cell ? "periodic" : "none"));
+    file_.attribute(path, "dimension", std::int64_t{D});
+    file_.attribute(path, "boundary", std::vector<std::string>(D, cell ? "periodic" : "none"));
     if (!cell) return;
     frame(path + "/edges");
-    write(path + "/edges/value", {1, 2}, std::vector<Vec2>{cell->length}, units_.length);
+    write(path + "/edges/value", {1, D}, std::vector<Vec<D>>{cell->length}, units_.length);
   }
 
   void value(const std::string& group, const std::string& name, double x) { put(group, name, x); }
@@ -87,7 +88,8 @@ class StateWriter {
   void value(const std::string& group, const std::string& name, std::uint64_t n) { put(group, name, n); }
   void value(const std::string& group, const std::string& name, std::int32_t n) { put(group, name, std::int64_t{n}); }
   void value(const std::string& group, const std::string& name, bool b) { put(group, name, std::int64_t{b}); }
-  void value(const std::string& group, const std::string& name, const Vec2& v) {
+  template <int D>
+  void value(const std::string& group, const std::string& name, const Vec<D>& v) {
     put(group, name, std::span<const double>(v.c));
   }
   void value(const std::string& group, const std::string& name, const std::string& text) {
@@ -156,13 +158,16 @@ class StateReader {
   void element(const std::string& path, std::vector<T>& values, std::size_t count, const char*) {
     read(path + "/value", in_one_frame(shape_of<T>(count)), values, count);
   }
-  void box(const std::string& path, std::optional<PeriodicCell<2>>& cell) {
-    if (file_.attribute<std::int64_t>(path, "dimension") != 2) throw Hdf5Error(path + "@dimension", "is not 2");
-    const std::string boundary = file_.text_attribute(path, "boundary", 2);
+  template <int D>
+  void box(const std::string& path, std::optional<PeriodicCell<D>>& cell) {
+    if (file_.attribute<std::int64_t>(path, "dimension") != D)
+      throw Hdf5Error(path + "@dimension", "is not " + std::to_string(D));
+    const std::string boundary = file_.text_attribute(path, "boundary", D);
     if (boundary == "none") return;
-    if (boundary != "periodic") throw Hdf5Error(path + "@boundary", "is neither periodic nor none in both directions");
-    const std::vector<double> edges = file_.array<double>(path + "/edges/value", {1, 2});
-    cell = PeriodicCell<2>{{{edges[0], edges[1]}}};
+    if (boundary != "periodic") throw Hdf5Error(path + "@boundary", "is neither periodic nor none in all directions");
+    const std::vector<double> edges = file_.array<double>(path + "/edges/value", {1, D});
+    cell.emplace();
+    std::copy_n(edges.begin(), D, cell->length.c.begin());
   }
 
   void value(const std::string& group, const std::string& name, double& x) { x = file_.attribute<double>(group, name); }
@@ -177,9 +182,10 @@ class StateReader {
                               std::numeric_limits<std::int32_t>::max());
   }
   void value(const std::string& group, const std::string& name, bool& b) { b = integer<int>(group, name, 0, 1) != 0; }
-  void value(const std::string& group, const std::string& name, Vec2& v) {
-    const std::vector<double> x = file_.attributes<double>(group, name, 2);
-    v = {{x[0], x[1]}};
+  template <int D>
+  void value(const std::string& group, const std::string& name, Vec<D>& v) {
+    const std::vector<double> x = file_.attributes<double>(group, name, D);
+    std::copy_n(x.begin(), D, v.c.begin());
   }
   void value(const std::string& group, const std::string& name, std::string& text) {
     text = file_.text_attribute(group, name);

@@ -3,12 +3,14 @@
 // not compile until it has its place here. Raise kStateFormatVersion and extend docs/formats.md with any change;
 // io.since() says whether a member is there in an older file.
 #pragma once
+#include <string>
+
 #include "dem/state/state.hpp"
 
 namespace isostat {
 
-template <class Io>
-void transfer_progress(Io& io, StageProgress& progress) {
+template <class Io, int D>
+void transfer_progress(Io& io, StageProgress<D>& progress) {
   auto& [stage, start_time, started, drag_on, quiet_since, contact_set, unchanged_since, start_stiffness, start_stress,
          peak_stress, drifting] = progress;
   io.value("/progress", "stage", stage);
@@ -77,8 +79,8 @@ void transfer(Io& io, State<System>& state) {
   io.value("/run", "time", time);
   io.value("/run", "step", step);
   io.value("/run", "time_step", time_step);
-  io.value("/run", "imposed_stress_1", imposed_stress[0]);
-  io.value("/run", "imposed_stress_2", imposed_stress[1]);
+  for (std::size_t a = 0; a < imposed_stress.size(); ++a)
+    io.value("/run", "imposed_stress_" + std::to_string(a + 1), imposed_stress[a]);
   io.value("/run", "seed", seed);
   io.value("/run", "random_counter", random_counter);
   transfer_packing(io, packing);

@@ -12,8 +12,9 @@
 namespace isostat {
 
 // How the cell is held while a packing settles.
+template <int D>
 struct FinishingRequest {
-  ImposedStress stress;                 // [F0/a] imposed in each direction; none: that edge keeps its length
+  ImposedStress<D> stress;              // [F0/a] imposed in each direction; none: that edge keeps its length
   double cell_inertia = 1;              // M of Gilabert 2007, Eq. 3 [m]
   double drag = 0;                      // [1/T0] of a global drag on what still moves
   bool drift_only = false;              // clusters still fly towards each other: on to the next capture, never to rest
@@ -43,7 +44,7 @@ class StaticSolver {
   // do neither, the state stays as it is, bit for bit. `time` does not advance; the solver's memory is emptied, so that
   // a Solver made from the state starts from packing and links; the energy that the solve takes out goes to
   // ledger.injected. The result depends neither on threads nor on the order in which the grains are stored.
-  virtual FinishingReport settle(State<System>& state, const FinishingRequest& request) = 0;
+  virtual FinishingReport settle(State<System>& state, const FinishingRequest<System::dimension>& request) = 0;
 };
 
 }  // namespace isostat

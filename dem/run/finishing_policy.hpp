@@ -24,7 +24,7 @@ class FinishingPolicy {
   bool acts() const { return method() != Finish::none; }
   // Static solves have the last word: the criteria may hold while a soft mode passes through its turning point.
   bool statically_solved() const {
-    return method() == Finish::newton && waits_for_equilibrium(stage_.until) && !stage_.driven(0) && !stage_.driven(1);
+    return method() == Finish::newton && waits_for_equilibrium(stage_.until) && !stage_.driven();
   }
 
   void follow_contacts() {

@@ -13,7 +13,7 @@ namespace isostat {
 template <class System>
 class Observers {
  public:
-  using Cell = std::optional<PeriodicCell<2>>;
+  using Cell = std::optional<PeriodicCell<System::dimension>>;
 
   explicit Observers(const RunHooks<System>& hooks) : hooks_(hooks), last_checkpoint_(wall_seconds()) {}
 

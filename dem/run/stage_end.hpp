@@ -82,15 +82,18 @@ class StageEnd {
   // Of the driven directions, the largest.
   double strain() const {
     double largest = 0;
-    for (int a = 0; a < 2; ++a)
+    for (int a = 0; a < System::dimension; ++a)
       if (stage_.driven(a))
         largest = std::max(largest, std::abs(1 - s_.packing.cell->length[a] / s_.cell_motion.reference_length[a]));
     return largest;
   }
   // Change of the stress of the driven directions since the stage began [F0/a].
   double stress_change() const {
-    const Vec2 change = static_stress(s_) - s_.progress.start_stress;
-    return std::max(stage_.driven(0) ? std::abs(change[0]) : 0.0, stage_.driven(1) ? std::abs(change[1]) : 0.0);
+    const Vec<System::dimension> change = static_stress(s_) - s_.progress.start_stress;
+    double largest = 0;
+    for (int a = 0; a < System::dimension; ++a)
+      if (stage_.driven(a)) largest = std::max(largest, std::abs(change[a]));
+    return largest;
   }
   bool failed() const {
     const double peak = s_.progress.peak_stress;

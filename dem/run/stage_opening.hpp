@@ -11,12 +11,11 @@
 
 namespace isostat {
 
-// sigma_11, sigma_22 of the static forces [F0/a]; 0 without a cell.
+// sigma_11, sigma_22(, sigma_33) of the static forces [F0/a]; 0 without a cell.
 template <class System>
-Vec2 static_stress(const State<System>& s) {
+Vec<System::dimension> static_stress(const State<System>& s) {
   if (!s.packing.cell) return {};
-  const StressTensor stress = measured_stress(s);
-  return {{stress.xx, stress.yy}};
+  return diagonal(measured_stress(s));
 }
 
 // The system's own part comes first and last: the time step that the stage wants, the velocities it draws.
@@ -31,17 +30,18 @@ void open_stage(State<System>& s, const StageScene& stage) {
   s.progress.start_time = s.time;
   s.progress.drag_on = false;
   s.progress.quiet_since = s.progress.unchanged_since = s.time;
-  s.cell_motion.reference_length = s.packing.cell ? s.packing.cell->length : Vec2{};
+  s.cell_motion.reference_length = s.packing.cell ? s.packing.cell->length : Vec<System::dimension>{};
   s.cell_motion.strain_rate = {};
-  s.imposed_stress = imposed_stress(stage);
+  s.imposed_stress = imposed_stress<System::dimension>(stage);
   agitate(s, stage);
 }
 
 template <class System>
-CellControl cell_control(const State<System>& s, const StageScene& stage) {
-  CellControl c;
-  c.stress = imposed_stress(stage);
-  c.strain_rate = {{stage.strain_rate_1.value_or(0), stage.strain_rate_2.value_or(0)}};
+auto cell_control(const State<System>& s, const StageScene& stage) {
+  CellControl<System::dimension> c;
+  c.stress = imposed_stress<System::dimension>(stage);
+  for (int a = 0; a < System::dimension; ++a)
+    c.strain_rate[a] = stage.strain_rates()[static_cast<std::size_t>(a)].value_or(0);
   c.max_strain_rate = stage.max_strain_rate;
   // In the order of size: the storage order, which changes in the run, must not show in the last bit after a restart.
   std::vector<double> masses = s.packing.bodies.mass;

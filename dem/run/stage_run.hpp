@@ -158,7 +158,7 @@ class StageRun {
   // Static solves instead of waiting. When they meet a capture, the run goes through it and they take over again. If
   // they cannot do anything, nothing has changed: the run goes on and tries again later.
   void settle() {
-    const CellControl control = cell_control(s_, stage_);
+    const auto control = cell_control(s_, stage_);
     const bool flying = policy_.still_flying();
     const double drag = policy_.rings() && !flying ? s_.scene.finish.drag : 0.0;
     const FinishingReport report =

@@ -82,10 +82,11 @@ struct FinishScene {
 // [[stage]]: one step of the history of a sample. Each direction of the cell has an imposed stress, or an imposed
 // strain rate, or stays fixed.
 struct StageScene {
-  std::optional<double> pressure;                      // P* [F0/a] stress applied in both directions
-  std::vector<double> pressures;                       // [F0/a] the stage once for each; empty in a resolved scene
-  std::optional<double> stress_1, stress_2;            // [F0/a] of one direction, compression positive
-  std::optional<double> strain_rate_1, strain_rate_2;  // [1/T0] of one direction, compression positive
+  std::optional<double> pressure;  // P* [F0/a] stress applied in both directions
+  std::vector<double> pressures;   // [F0/a] the stage once for each; empty in a resolved scene
+  // Of one direction, compression positive [F0/a], [1/T0]; the third in space only.
+  std::optional<double> stress_1, stress_2, stress_3;
+  std::optional<double> strain_rate_1, strain_rate_2, strain_rate_3;
   double velocity = 0.0;                   // V0 [V* = sqrt(F0 D0 / m)] rms velocity drawn at the start; 0: keep
   double max_strain_rate = 0.05;           // [1/T0] cap of the cell's strain rate; 0: no cap
   std::optional<double> normal_stiffness;  // K_N [F0/a] that the contacts are brought to; absent: it stays
@@ -97,21 +98,39 @@ struct StageScene {
   double drop = 0.5;          // [-] part of the peak stress whose loss is failure
   double max_time = 20000.0;  // [T0] give up (exit code 3) after so long
   ContainerMotionScene container;
+  std::array<std::optional<double>, 3> stresses() const { return {stress_1, stress_2, stress_3}; }
+  std::array<std::optional<double>, 3> strain_rates() const { return {strain_rate_1, strain_rate_2, strain_rate_3}; }
   // Strain rates other than 0: of a driven cell.
-  bool driven(int direction) const { return (direction == 0 ? strain_rate_1 : strain_rate_2).value_or(0) != 0; }
+  bool driven(int direction) const { return strain_rates()[static_cast<std::size_t>(direction)].value_or(0) != 0; }
+  bool driven() const { return driven(0) || driven(1) || driven(2); }
   friend bool operator==(const StageScene&, const StageScene&) = default;
 };
 
 // Stress imposed along each edge of the cell [F0/a], compression positive; none: that edge is fixed or driven.
-using ImposedStress = std::array<std::optional<double>, 2>;
-inline ImposedStress isotropic(std::optional<double> pressure) { return {pressure, pressure}; }
+template <int D>
+using ImposedStress = std::array<std::optional<double>, D>;
+template <int D>
+ImposedStress<D> isotropic(std::optional<double> pressure) {
+  ImposedStress<D> stress;
+  stress.fill(pressure);
+  return stress;
+}
 // P [F0/a]: the imposed stress of largest magnitude, with its sign; none if no edge has one.
-inline std::optional<double> largest_stress(const ImposedStress& s) {
-  if (!s[0] || !s[1]) return s[0] ? s[0] : s[1];
-  return std::abs(*s[0]) < std::abs(*s[1]) ? s[1] : s[0];
+template <std::size_t D>
+std::optional<double> largest_stress(const std::array<std::optional<double>, D>& stress) {
+  std::optional<double> largest;
+  for (const std::optional<double>& s : stress)
+    if (s && (!largest || std::abs(*largest) < std::abs(*s))) largest = s;
+  return largest;
 }
 
-ImposedStress imposed_stress(const StageScene& stage);
+template <int D>
+ImposedStress<D> imposed_stress(const StageScene& stage) {
+  ImposedStress<D> imposed = isotropic<D>(stage.pressure);
+  for (std::size_t a = 0; a < D; ++a)
+    if (stage.stresses()[a] || stage.strain_rates()[a]) imposed[a] = stage.stresses()[a];
+  return imposed;
+}
 
 // [output]: observers; they read, they never touch the run.
 struct OutputScene {

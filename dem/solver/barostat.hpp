@@ -1,8 +1,9 @@
-// The two degrees of freedom of the cell (Gilabert 2007, Eq. 3):  M d2(eps_a)/dt2 = sigma_imposed - sigma_aa, with
+// The degrees of freedom of the cell (Gilabert 2007, Eq. 3):  M d2(eps_a)/dt2 = sigma_imposed - sigma_aa, with
 // eps_a' = -L_a' / L0_a, compression positive, L0 the cell at the start of the stage, and a cap on the rate. A
 // direction may have its rate imposed instead.
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "dem/solver/motion_step.hpp"
@@ -11,28 +12,32 @@
 
 namespace isostat {
 
+template <int D>
 struct CellControl {
-  ImposedStress stress;        // [F0/a]
-  Vec2 strain_rate{};          // [1/T0] imposed along an edge without imposed stress; 0: fixed
+  ImposedStress<D> stress;     // [F0/a]
+  Vec<D> strain_rate{};        // [1/T0] imposed along an edge without imposed stress; 0: fixed
   double max_strain_rate = 0;  // [1/T0]; 0: no cap
   double inertia = 1;          // M [m]
   bool rate_coupling = false;  // peculiar velocities also feel -(Ldot/L) v
-  bool moves() const { return stress[0] || stress[1] || strain_rate != Vec2{}; }
+  bool moves() const { return largest_stress(stress) || strain_rate != Vec<D>{}; }
 };
 
 // Ldot_a / L_a: the velocity gradient that the bodies' affine velocities have [1/T0].
+template <int D>
 struct CellFlow {
-  double half[2] = {0, 0};  // at the half step
-  double now[2] = {0, 0};   // predicted to the full step
+  std::array<double, D> half{};  // at the half step
+  std::array<double, D> now{};   // predicted to the full step
 };
 
 // Moves the cell by dt and says how positions are to be rescaled.
-inline CellFlow advance_cell(const CellControl& control, double dt, CellMotion& motion, PeriodicCell<2>& cell,
-                             MotionStep& step) {
-  CellFlow flow;
-  for (int a = 0; a < 2; ++a) {
+template <int D>
+CellFlow<D> advance_cell(const CellControl<D>& control, double dt, CellMotion<D>& motion, PeriodicCell<D>& cell,
+                         MotionStep<D>& step) {
+  CellFlow<D> flow;
+  for (int a = 0; a < D; ++a) {
+    const auto u = static_cast<std::size_t>(a);
     const double before = motion.strain_rate[a];
-    const auto& stress = control.stress[static_cast<std::size_t>(a)];
+    const auto& stress = control.stress[u];
     double rate = control.strain_rate[a];
     if (stress) {
       rate = before + dt * (*stress - motion.stress[a]) / control.inertia;
@@ -43,11 +48,11 @@ inline CellFlow advance_cell(const CellControl& control, double dt, CellMotion& 
     const double old_length = cell.length[a], half_length = old_length + 0.5 * dt * ldot;
     cell.length[a] = old_length + dt * ldot;
     motion.strain_rate[a] = rate;
-    step.scale[a] = cell.length[a] / old_length;
-    step.half_scale[a] = cell.length[a] / half_length;
-    flow.half[a] = ldot / half_length;
-    flow.now[a] = ldot_now / cell.length[a];
-    if (control.rate_coupling) step.keep[a] -= dt * flow.half[a];
+    step.scale[u] = cell.length[a] / old_length;
+    step.half_scale[u] = cell.length[a] / half_length;
+    flow.half[u] = ldot / half_length;
+    flow.now[u] = ldot_now / cell.length[a];
+    if (control.rate_coupling) step.keep[u] -= dt * flow.half[u];
   }
   return flow;
 }

@@ -8,6 +8,7 @@
 // Within a group the pairs of a body stand in the order of the list, batches apart if the sample fits into the caches.
 //
 // The lists see positions and radii. What a listed pair carries is a type Columns:
+//   kDimension         of space
 //   Columns::Bodies    the bodies' store: size(), position(k), radius(k), id[k], place(k, r), reorder(to),
 //                      static pad(n, k) of kPads padding pairs; if there are bodies that never interact with each
 //                      other whatever they do, inert(i, j)
@@ -17,6 +18,7 @@
 //   static inner_skin(displacement of neighbours a step, mean diameter), kOuterSkin: optional, where the default skins
 //   do not suit
 #pragma once
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
@@ -28,12 +30,24 @@
 
 namespace isostat {
 
-// Image codes: (s1 + 1) + 3 (s2 + 1); 4 is the pair as it stands.
-constexpr std::uint8_t image_code(const ImageShift<2>& s) {
-  return static_cast<std::uint8_t>(s[0] + 1 + 3 * (s[1] + 1));
+// Image codes: (s1 + 1) + 3 (s2 + 1)(+ 9 (s3 + 1)); the one in the middle is the pair as it stands.
+template <int D>
+inline constexpr std::uint8_t kImages = D == 2 ? 9 : 27;
+template <int D>
+inline constexpr std::uint8_t kNoImage = kImages<D> / 2;
+template <std::size_t D>
+constexpr std::uint8_t image_code(const std::array<int, D>& shift) {
+  int code = 0;
+  for (std::size_t a = D; a-- > 0;) code = 3 * code + shift[a] + 1;
+  return static_cast<std::uint8_t>(code);
 }
-constexpr ImageShift<2> image_shift(std::uint8_t code) { return {code % 3 - 1, code / 3 - 1}; }
-inline constexpr std::uint8_t kNoImage = 4;
+template <int D>
+constexpr ImageShift<D> image_shift(std::uint8_t code) {
+  ImageShift<D> shift{};
+  int rest = code;
+  for (int& s : shift) s = rest % 3 - 1, rest /= 3;
+  return shift;
+}
 
 // Groups begin and end at multiples of kPairBatch, the widest batch of any kernel (two AVX-512 vectors).
 inline constexpr std::size_t kPairBatch = 16;
@@ -54,8 +68,9 @@ class NeighbourLists {
  public:
   using Bodies = typename Columns::Bodies;
   using History = typename Columns::History;
-  using Pair = PairMemory<History>;
-  using Cell = std::optional<PeriodicCell<2>>;
+  static constexpr int D = Columns::kDimension;
+  using Pair = PairMemory<History, D>;
+  using Cell = std::optional<PeriodicCell<D>>;
 
   // range: interaction beyond contact [a].
   NeighbourLists(std::size_t bodies, double range, Columns columns);
@@ -100,9 +115,9 @@ class NeighbourLists {
       if (body_at(i_[k]) < static_cast<std::int32_t>(bodies_)) visit(k, body_at(i_[k]), body_at(j_[k]), shift_[k]);
   }
 
-  void remember(ListMemory& memory, std::vector<Pair>& pairs) const;
+  void remember(ListMemory<D>& memory, std::vector<Pair>& pairs) const;
   // Lists exactly as they were when `memory` was taken; bodies are in the storage order of that time.
-  void restore(const Bodies& bodies, const ListMemory& memory, const std::vector<Pair>& pairs);
+  void restore(const Bodies& bodies, const ListMemory<D>& memory, const std::vector<Pair>& pairs);
 
  private:
   struct Claimable {
@@ -116,7 +131,7 @@ class NeighbourLists {
   void find_outer(const Bodies& bodies);
   void filter_inner(const Bodies& bodies, const std::vector<Pair>& histories);
   std::vector<Pair> histories() const;
-  CellGrid<2> grid_for(const std::vector<Vec2>& position, double cutoff) const;
+  CellGrid<D> grid_for(const std::vector<Vec<D>>& position, double cutoff) const;
   double outer_skin_for(const Cell& cell) const;
   double inner_skin_for(double pair_displacement) const;
   std::size_t segment_of(std::int32_t i, std::int32_t j, std::uint8_t shift) const;
@@ -132,7 +147,7 @@ class NeighbourLists {
   double outer_skin_ = 0, inner_skin_ = -1, outer_travel_ = 0, inner_travel_ = 0;  // [a]
   std::size_t inner_rebuilds_ = 0, outer_rebuilds_ = 0;
 
-  std::vector<Vec2> outer_position_, inner_position_;
+  std::vector<Vec<D>> outer_position_, inner_position_;
   Cell outer_cell_, inner_cell_;
   std::vector<std::int32_t> outer_i_, outer_j_;
   std::vector<std::uint8_t> outer_shift_;

@@ -68,13 +68,15 @@ template <class Columns>
 double NeighbourLists<Columns>::outer_skin_for(const Cell& cell) const {
   double wanted = lists::kOuterSkin * mean_diameter_;
   if constexpr (requires { Columns::kOuterSkin; }) wanted = Columns::kOuterSkin * mean_diameter_;
-  return cell ? std::min(wanted, std::min(cell->length[0], cell->length[1]) - largest_diameter_ - range_) : wanted;
+  return cell ? std::min(wanted,
+                         *std::min_element(cell->length.c.begin(), cell->length.c.end()) - largest_diameter_ - range_)
+              : wanted;
 }
 
 template <class Columns>
-CellGrid<2> NeighbourLists<Columns>::grid_for(const std::vector<Vec2>& position, double cutoff) const {
-  const Frame<2> frame = frame_of(outer_cell_, position);
-  for (int k = 0; k < 2; ++k) {
+auto NeighbourLists<Columns>::grid_for(const std::vector<Vec<D>>& position, double cutoff) const -> CellGrid<D> {
+  const Frame<D> frame = frame_of(outer_cell_, position);
+  for (int k = 0; k < D; ++k) {
     if (!std::isfinite(frame.length[k])) throw ListFailure("a position is not a number");
     if (frame.periodic && !(frame.length[k] >= cutoff))
       throw ListFailure("the cell, L" + std::to_string(k + 1) + " = " + std::to_string(frame.length[k]) +
@@ -133,12 +135,12 @@ void NeighbourLists<Columns>::rebuild(Bodies& bodies, const Cell& cell, double p
 template <class Columns>
 void NeighbourLists<Columns>::sort_bodies(Bodies& bodies, const Cell& cell, std::vector<Pair>& histories) {
   outer_cell_ = cell;
-  std::vector<ImageShift<2>> wraps(bodies_);
-  std::vector<Vec2> position(bodies_);
+  std::vector<ImageShift<D>> wraps(bodies_);
+  std::vector<Vec<D>> position(bodies_);
   for (std::size_t k = 0; k < bodies_; ++k) {
-    Vec2& r = position[k] = bodies.position(k);
+    Vec<D>& r = position[k] = bodies.position(k);
     if (!cell) continue;
-    for (int a = 0; a < 2; ++a) {
+    for (int a = 0; a < D; ++a) {
       const double cells = std::floor(r[a] / cell->length[a]);
       if (!(std::abs(cells) < 1e6)) throw ListFailure("grain " + std::to_string(bodies.id[k]) + " has left the cell");
       r[a] -= cells * cell->length[a];
@@ -146,7 +148,7 @@ void NeighbourLists<Columns>::sort_bodies(Bodies& bodies, const Cell& cell, std:
     }
     bodies.place(k, r);
   }
-  const GridMembers<2> members(grid_for(position, largest_diameter_ + range_), position);
+  const GridMembers<D> members(grid_for(position, largest_diameter_ + range_), position);
   std::vector<std::int32_t> to(bodies_);
   for (std::size_t n = 0; n < bodies_; ++n)
     to[static_cast<std::size_t>(members.member[n])] = static_cast<std::int32_t>(n);
@@ -154,13 +156,13 @@ void NeighbourLists<Columns>::sort_bodies(Bodies& bodies, const Cell& cell, std:
 
   // r_j + s L - r_i is unchanged when j is wrapped by w_j cells and i by w_i: s becomes s + w_j - w_i.
   for (Pair& h : histories) {
-    for (std::size_t a = 0; a < 2; ++a)
+    for (std::size_t a = 0; a < D; ++a)
       h.shift[a] += wraps[static_cast<std::size_t>(h.j)][a] - wraps[static_cast<std::size_t>(h.i)][a];
     h.i = to[static_cast<std::size_t>(h.i)];
     h.j = to[static_cast<std::size_t>(h.j)];
     if (h.i > h.j) {
       std::swap(h.i, h.j);
-      h.shift = {-h.shift[0], -h.shift[1]};
+      for (int& s : h.shift) s = -s;
       h.history = Columns::turned(h.history);
     }
   }
@@ -174,33 +176,35 @@ void NeighbourLists<Columns>::find_outer(const Bodies& bodies) {
   for (std::size_t k = 0; k < bodies_; ++k) outer_position_[k] = bodies.position(k);
   outer_i_.clear(), outer_j_.clear(), outer_shift_.clear();
 
-  const CellGrid<2> grid = grid_for(outer_position_, largest_diameter_ + range_ + outer_skin_);
-  const GridMembers<2> members(grid, outer_position_);
+  const CellGrid<D> grid = grid_for(outer_position_, largest_diameter_ + range_ + outer_skin_);
+  const GridMembers<D> members(grid, outer_position_);
   for (std::size_t i = 0; i < bodies_; ++i) {
-    const Vec2 ri = outer_position_[i];
+    const Vec<D> ri = outer_position_[i];
     const double reach_i = bodies.radius(i) + range_ + outer_skin_;
-    const int cx = grid.column(ri[0], 0), cy = grid.column(ri[1], 1);
-    for (int oy = -1; oy <= 1; ++oy) {
-      const lists::Wrapped wy = lists::wrap_index(cy + oy, grid.count(1));
-      for (int ox = -1; ox <= 1; ++ox) {
-        const lists::Wrapped wx = lists::wrap_index(cx + ox, grid.count(0));
-        const ImageShift<2> shift{wx.shift, wy.shift};
-        if (!outer_cell_ && shift != ImageShift<2>{}) continue;
-        const Vec2 offset = outer_cell_ ? outer_cell_->offset(shift) : Vec2{};
-        const std::size_t c = grid.index(std::array<int, 2>{wx.cell, wy.cell});
-        for (auto m = static_cast<std::size_t>(members.begin[c]); m < static_cast<std::size_t>(members.begin[c + 1]);
-             ++m) {
-          const auto j = static_cast<std::size_t>(members.member[m]);
-          if (j <= i) continue;
-          const double dx = outer_position_[j][0] + offset[0] - ri[0], dy = outer_position_[j][1] + offset[1] - ri[1];
-          const double reach = reach_i + bodies.radius(j);
-          if (dx * dx + dy * dy > reach * reach) continue;
-          if constexpr (requires { bodies.inert(i, j); })
-            if (bodies.inert(i, j)) continue;
-          outer_i_.push_back(static_cast<std::int32_t>(i));
-          outer_j_.push_back(static_cast<std::int32_t>(j));
-          outer_shift_.push_back(image_code(shift));
-        }
+    const std::array<int, D> at = grid.columns(ri);
+    for (std::uint8_t around = 0; around < kImages<D>; ++around) {
+      const ImageShift<D> step = image_shift<D>(around);
+      std::array<int, D> column;
+      ImageShift<D> shift;
+      for (std::size_t a = 0; a < D; ++a) {
+        const lists::Wrapped w = lists::wrap_index(at[a] + step[a], grid.count(static_cast<int>(a)));
+        column[a] = w.cell, shift[a] = w.shift;
+      }
+      if (!outer_cell_ && shift != ImageShift<D>{}) continue;
+      const Vec<D> offset = outer_cell_ ? outer_cell_->offset(shift) : Vec<D>{};
+      const std::size_t c = grid.index(column);
+      for (auto m = static_cast<std::size_t>(members.begin[c]); m < static_cast<std::size_t>(members.begin[c + 1]);
+           ++m) {
+        const auto j = static_cast<std::size_t>(members.member[m]);
+        if (j <= i) continue;
+        const Vec<D> d = outer_position_[j] + offset - ri;
+        const double reach = reach_i + bodies.radius(j);
+        if (dot(d, d) > reach * reach) continue;
+        if constexpr (requires { bodies.inert(i, j); })
+          if (bodies.inert(i, j)) continue;
+        outer_i_.push_back(static_cast<std::int32_t>(i));
+        outer_j_.push_back(static_cast<std::int32_t>(j));
+        outer_shift_.push_back(image_code(shift));
       }
     }
   }
@@ -208,7 +212,7 @@ void NeighbourLists<Columns>::find_outer(const Bodies& bodies) {
 
 template <class Columns>
 std::size_t NeighbourLists<Columns>::segment_of(std::int32_t i, std::int32_t j, std::uint8_t shift) const {
-  const std::size_t images = shift == kNoImage ? 0 : 1;
+  const std::size_t images = shift == kNoImage<D> ? 0 : 1;
   if (chunks_ == 1) return images;
   const int ci = chunk_of(i), cj = chunk_of(j);
   const int group = ci == cj                   ? ci
@@ -231,19 +235,14 @@ void NeighbourLists<Columns>::filter_inner(const Bodies& bodies, const std::vect
   std::vector<std::uint32_t> near;
   std::vector<std::uint16_t> segment;
   near.reserve(2 * bodies_), segment.reserve(2 * bodies_);
-  double offsets[9][2];
-  for (std::uint8_t c = 0; c < 9; ++c) {
-    const Vec2 o = inner_cell_ ? inner_cell_->offset(image_shift(c)) : Vec2{};
-    offsets[c][0] = o[0], offsets[c][1] = o[1];
-  }
+  std::array<Vec<D>, kImages<D>> offsets{};
+  for (std::uint8_t c = 0; c < kImages<D> && inner_cell_; ++c) offsets[c] = inner_cell_->offset(image_shift<D>(c));
   const double reach_beyond = range_ + inner_skin_;
   for (std::size_t k = 0; k < outer_i_.size(); ++k) {
     const auto i = static_cast<std::size_t>(outer_i_[k]), j = static_cast<std::size_t>(outer_j_[k]);
-    const double* o = offsets[outer_shift_[k]];
-    const double dx = inner_position_[j][0] + o[0] - inner_position_[i][0];
-    const double dy = inner_position_[j][1] + o[1] - inner_position_[i][1];
+    const Vec<D> d = inner_position_[j] + offsets[outer_shift_[k]] - inner_position_[i];
     const double reach = bodies.radius(i) + bodies.radius(j) + reach_beyond;
-    if (dx * dx + dy * dy > reach * reach) continue;
+    if (dot(d, d) > reach * reach) continue;
     near.push_back(static_cast<std::uint32_t>(k));
     segment.push_back(static_cast<std::uint16_t>(segment_of(outer_i_[k], outer_j_[k], outer_shift_[k])));
     ++count[segment.back()];
@@ -252,7 +251,7 @@ void NeighbourLists<Columns>::filter_inner(const Bodies& bodies, const std::vect
   std::vector<std::size_t> begin(segments + 1, 0);
   for (std::size_t s = 0; s < segments; ++s)
     begin[s + 1] = begin[s] + (count[s] + kPairBatch - 1) / kPairBatch * kPairBatch;
-  i_.resize(begin.back()), j_.resize(begin.back()), shift_.assign(begin.back(), kNoImage);
+  i_.resize(begin.back()), j_.resize(begin.back()), shift_.assign(begin.back(), kNoImage<D>);
   for (std::size_t s = 0; s < segments; ++s) {
     const std::size_t pad = Bodies::pad(bodies_, s / 2 % static_cast<std::size_t>(chunks_));
     std::fill(i_.begin() + static_cast<std::ptrdiff_t>(begin[s]),
@@ -265,7 +264,9 @@ void NeighbourLists<Columns>::filter_inner(const Bodies& bodies, const std::vect
   // Histories by their body i, to be claimed by the pairs. Those of an image further than the nearest ones (a link of a
   // foreign packing that does not touch) have none to claim them.
   std::vector<std::int32_t> history_begin(bodies_ + 1, 0);
-  auto has_code = [](const ImageShift<2>& s) { return std::abs(s[0]) <= 1 && std::abs(s[1]) <= 1; };
+  auto has_code = [](const ImageShift<D>& shift) {
+    return std::all_of(shift.begin(), shift.end(), [](int s) { return std::abs(s) <= 1; });
+  };
   for (const Pair& h : kept) history_begin[static_cast<std::size_t>(h.i) + 1] += has_code(h.shift);
   std::partial_sum(history_begin.begin(), history_begin.end(), history_begin.begin());
   std::vector<Claimable> history(kept.size());
@@ -303,14 +304,14 @@ auto NeighbourLists<Columns>::histories() const -> std::vector<Pair> {
   std::vector<Pair> kept;
   for_each([&](std::size_t k, std::int32_t i, std::int32_t j, std::uint8_t shift) {
     const History h = columns_.history(k);
-    if (h != History{}) kept.push_back({i, j, image_shift(shift), h});
+    if (h != History{}) kept.push_back({i, j, image_shift<D>(shift), h});
   });
   return kept;
 }
 
 template <class Columns>
-void NeighbourLists<Columns>::remember(ListMemory& m, std::vector<Pair>& pairs) const {
-  const auto length = [](const Cell& cell) { return cell ? cell->length : Vec2{}; };
+void NeighbourLists<Columns>::remember(ListMemory<D>& m, std::vector<Pair>& pairs) const {
+  const auto length = [](const Cell& cell) { return cell ? cell->length : Vec<D>{}; };
   pairs = histories();
   m.outer_position = outer_position_, m.inner_position = inner_position_;
   m.outer_length = length(outer_cell_), m.inner_length = length(inner_cell_);
@@ -319,8 +320,8 @@ void NeighbourLists<Columns>::remember(ListMemory& m, std::vector<Pair>& pairs) 
 }
 
 template <class Columns>
-void NeighbourLists<Columns>::restore(const Bodies& bodies, const ListMemory& m, const std::vector<Pair>& pairs) {
-  const auto cell = [](const Vec2& length) { return length == Vec2{} ? Cell{} : PeriodicCell<2>{length}; };
+void NeighbourLists<Columns>::restore(const Bodies& bodies, const ListMemory<D>& m, const std::vector<Pair>& pairs) {
+  const auto cell = [](const Vec<D>& length) { return length == Vec<D>{} ? Cell{} : PeriodicCell<D>{length}; };
   measure(bodies);
   Bodies then = bodies;
   for (std::size_t k = 0; k < bodies_; ++k) then.place(k, m.outer_position[k]);

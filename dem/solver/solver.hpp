@@ -32,9 +32,10 @@ struct StepTimes {
 };
 
 // Sums over the bodies and links of one instant, from which the stress follows [F0 a].
+template <int D>
 struct StressSums {
-  double kinetic[2] = {0, 0};  // sum of m v_a^2
-  double virial[2] = {0, 0};   // sum of F_a r_a, repulsion positive
+  std::array<double, D> kinetic{};  // sum of m v_a^2
+  std::array<double, D> virial{};   // sum of F_a r_a, repulsion positive
 };
 
 // How far the bodies went in a step.
@@ -48,12 +49,13 @@ class Solver {
  public:
   using Engine = typename System::Engine;
   using Law = typename System::Law;
+  static constexpr int D = System::dimension;
 
   // From a state: with its memory the run goes on bit for bit; without (a new or foreign packing) lists and half-step
   // velocities are made from the packing, and spring histories from its links.
   // Throws InputError if the law is not among the supported compositions or a cell that is not there is to move,
   // RunError if the cell is too small.
-  Solver(const State<System>& state, const CellControl& control, SolverOptions options = {});
+  Solver(const State<System>& state, const CellControl<D>& control, SolverOptions options = {});
 
   void run(std::int64_t steps) {
     for (std::int64_t k = 0; k < steps; ++k) step();
@@ -65,8 +67,8 @@ class Solver {
   void set_law(const Law& law, Springs springs = Springs::keep_forces) { engine_.set_law(law, springs); }
   double time() const { return time_; }
   std::int64_t steps() const { return step_; }
-  const std::optional<PeriodicCell<2>>& cell() const { return cell_; }
-  const CellMotion& cell_motion() const { return cell_motion_; }
+  const std::optional<PeriodicCell<D>>& cell() const { return cell_; }
+  const CellMotion<D>& cell_motion() const { return cell_motion_; }
   StepTimes times() const { return times_; }
   const Engine& engine() const { return engine_; }
 
@@ -99,18 +101,18 @@ class Solver {
   // Reading the clock at every stage of every step would cost a few per cent.
   static constexpr std::int64_t kTimedEvery = 64;
 
-  MotionStep move_cell();
+  MotionStep<D> move_cell();
   double advance();
   void update_lists(double displacement);
   void measure_stress();
   void check_cell() const;
 
-  CellControl control_;
+  CellControl<D> control_;
   double dt_ = 0, drag_ = 0, time_ = 0;
   std::int64_t step_ = 0;
-  std::optional<PeriodicCell<2>> cell_;
-  CellMotion cell_motion_;
-  CellFlow flow_;
+  std::optional<PeriodicCell<D>> cell_;
+  CellMotion<D> cell_motion_;
+  CellFlow<D> flow_;
   Engine engine_;
   StepTimes times_;
 };

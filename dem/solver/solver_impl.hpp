@@ -13,7 +13,7 @@ namespace isostat {
 inline constexpr double kMostStrain = 0.1;  // [-] of the cell in one step: beyond, the run has blown up
 
 template <class System>
-Solver<System>::Solver(const State<System>& state, const CellControl& control, SolverOptions options)
+Solver<System>::Solver(const State<System>& state, const CellControl<D>& control, SolverOptions options)
     : control_(control),
       dt_(state.time_step),
       time_(state.time),
@@ -49,20 +49,22 @@ void Solver<System>::step() {
 }
 
 template <class System>
-MotionStep Solver<System>::move_cell() {
-  MotionStep step;
+auto Solver<System>::move_cell() -> MotionStep<D> {
+  MotionStep<D> step;
   step.time_step = dt_, step.time = time_ + dt_;
-  step.keep[0] = step.keep[1] = step.keep_spin = 1 - drag_ * dt_;
+  step.keep_spin = 1 - drag_ * dt_;
+  step.keep.fill(step.keep_spin);
   if (control_.moves()) flow_ = advance_cell(control_, dt_, cell_motion_, *cell_, step);
   return step;
 }
 
 template <class System>
 double Solver<System>::advance() {
-  const MotionStep step = move_cell();
+  const MotionStep<D> step = move_cell();
   const Advance moved = engine_.advance(step, drag_);
-  const double affine = std::max(std::abs(step.scale[0] - 1), std::abs(step.scale[1] - 1));
-  if (moved.violent || !(affine <= kMostStrain)) check_sanity();
+  const bool sane = std::all_of(step.scale.begin(), step.scale.end(),
+                                [](double scale) { return std::abs(scale - 1) <= kMostStrain; });
+  if (moved.violent || !sane) check_sanity();
   return moved.displacement;
 }
 
@@ -76,13 +78,14 @@ void Solver<System>::update_lists(double displacement) {
   }
 }
 
-// sigma_aa = (1/A) [sum m v_a^2 + sum over pairs F_a r_a], each pair once, compression positive.
+// sigma_aa = (1/V) [sum m v_a^2 + sum over pairs F_a r_a], each pair once, compression positive.
 template <class System>
 void Solver<System>::measure_stress() {
   if (!control_.moves()) return;
-  const StressSums sums = engine_.sums();
-  const double area = cell_->measure();
-  for (int a = 0; a < 2; ++a) cell_motion_.stress[a] = (sums.kinetic[a] + sums.virial[a]) / area;
+  const StressSums<D> sums = engine_.sums();
+  const double volume = cell_->measure();
+  for (std::size_t a = 0; a < D; ++a)
+    cell_motion_.stress[static_cast<int>(a)] = (sums.kinetic[a] + sums.virial[a]) / volume;
 }
 
 template <class System>
@@ -104,7 +107,7 @@ void Solver<System>::check_sanity() const {
 template <class System>
 void Solver<System>::check_cell() const {
   if (!cell_) return;
-  for (int a = 0; a < 2; ++a)
+  for (int a = 0; a < D; ++a)
     if (!(std::abs(cell_motion_.strain_rate[a]) * dt_ <= kMostStrain) || !(cell_->length[a] > 0))
       throw RunError(step_, -1,
                      "the cell collapses, L" + std::to_string(a + 1) + " = " + std::to_string(cell_->length[a]),

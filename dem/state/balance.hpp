@@ -11,11 +11,12 @@ namespace isostat {
 struct StressTensor {
   double xx = 0, xy = 0, yx = 0, yy = 0;
 };
+inline Vec2 diagonal(const StressTensor& s) { return {{s.xx, s.yy}}; }
 StressTensor measured_stress(const Packing<2>& packing);  // needs a cell
 // Of a state whose links say all of it.
 template <class State>
 requires requires(const State& s) { measured_stress(s.packing); }
-StressTensor measured_stress(const State& state) { return measured_stress(state.packing); }
+auto measured_stress(const State& state) { return measured_stress(state.packing); }
 // Its two sums, not yet divided by the area [F0 a].
 void add_kinetic(StressTensor& sum, const Bodies<2>& bodies);
 void add_virial(StressTensor& sum, const Packing<2>& packing);

@@ -4,14 +4,18 @@
 
 namespace isostat {
 
-std::size_t count_clusters(const Packing<2>& p) {
+template <int D>
+std::size_t count_clusters(const Packing<D>& p) {
   UnionFind joined(p.bodies.size());
   std::size_t count = count_free(p);
-  for (const Link<2>& l : p.links) {
+  for (const Link<D>& l : p.links) {
     const auto i = static_cast<std::size_t>(l.i), j = static_cast<std::size_t>(l.j);
     if (is_free(p.part, i) && is_free(p.part, j)) count -= joined.join(i, j);
   }
   return count;
 }
+
+template std::size_t count_clusters(const Packing<2>&);
+template std::size_t count_clusters(const Packing<3>&);
 
 }  // namespace isostat

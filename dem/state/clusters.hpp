@@ -6,6 +6,7 @@
 
 namespace isostat {
 
-std::size_t count_clusters(const Packing<2>& packing);
+template <int D>
+std::size_t count_clusters(const Packing<D>& packing);
 
 }  // namespace isostat

@@ -14,9 +14,10 @@ std::uint64_t mixed(std::uint64_t x) {
 
 }  // namespace
 
-std::uint64_t contact_set(const Packing<2>& packing) {
+template <int D>
+std::uint64_t contact_set(const Packing<D>& packing) {
   std::uint64_t sum = 0;
-  for (const Link<2>& l : packing.links) {
+  for (const Link<D>& l : packing.links) {
     if (!is_contact(l.kind)) continue;
     const auto a = static_cast<std::uint64_t>(packing.bodies.id[static_cast<std::size_t>(l.i)]);
     const auto b = static_cast<std::uint64_t>(packing.bodies.id[static_cast<std::size_t>(l.j)]);
@@ -24,5 +25,8 @@ std::uint64_t contact_set(const Packing<2>& packing) {
   }
   return sum;
 }
+
+template std::uint64_t contact_set(const Packing<2>&);
+template std::uint64_t contact_set(const Packing<3>&);
 
 }  // namespace isostat

@@ -7,6 +7,7 @@
 
 namespace isostat {
 
-std::uint64_t contact_set(const Packing<2>& packing);
+template <int D>
+std::uint64_t contact_set(const Packing<D>& packing);
 
 }  // namespace isostat

@@ -8,18 +8,19 @@
 namespace isostat {
 
 // The positions at which the two nested lists were built, and how much of their skins is used up.
+template <int D>
 struct ListMemory {
-  std::vector<Vec2> outer_position, inner_position;  // [a] at the last rebuild of each list
-  Vec2 outer_length{}, inner_length{};               // [a] cell edges then; 0 without a cell
-  double outer_skin = 0, inner_skin = 0;             // [a]
-  double outer_travel = 0, inner_travel = 0;         // [a] part of the skin that motion may have used since
+  std::vector<Vec<D>> outer_position, inner_position;  // [a] at the last rebuild of each list
+  Vec<D> outer_length{}, inner_length{};               // [a] cell edges then; 0 without a cell
+  double outer_skin = 0, inner_skin = 0;               // [a]
+  double outer_travel = 0, inner_travel = 0;           // [a] part of the skin that motion may have used since
 };
 
 // What a listed pair carries from step to step; pairs without history are not kept.
-template <class History>
+template <class History, int D = 2>
 struct PairMemory {
   std::int32_t i = 0, j = 0;
-  ImageShift<2> shift{};
+  ImageShift<D> shift{};
   History history{};
 };
 

@@ -11,10 +11,11 @@
 namespace isostat {
 
 // The cell's degrees of freedom (Gilabert 2007, Eq. 3).
+template <int D>
 struct CellMotion {
-  Vec2 reference_length{};  // [a] L0: the cell at the start of the stage; strain rate = -Ldot / L0; 0 without cell
-  Vec2 strain_rate{};       // [1/T0] at the last half step, compression positive
-  Vec2 stress{};            // [F0/a] measured sigma_11, sigma_22 at `time`, kinetic and viscous parts included
+  Vec<D> reference_length{};  // [a] L0: the cell at the start of the stage; strain rate = -Ldot / L0; 0 without cell
+  Vec<D> strain_rate{};       // [1/T0] at the last half step, compression positive
+  Vec<D> stress{};  // [F0/a] measured sigma_11, sigma_22(, sigma_33) at `time`, kinetic and viscous parts included
 };
 
 // Energy taken out of, or put into, the bodies since the start of the run; kept only when the scene asks for energies.
@@ -27,6 +28,7 @@ struct EnergyLedger {
 };
 
 // Where the run stands in the scene's stages.
+template <int D>
 struct StageProgress {
   std::int32_t stage = 0;         // index into Scene::stages; == size: finished
   double start_time = 0;          // [T0] when the current stage began
@@ -36,7 +38,7 @@ struct StageProgress {
   std::uint64_t contact_set = 0;  // of the contacts at the last check, whatever their order
   double unchanged_since = 0;     // [T0] since when it has been the same
   double start_stiffness = 0;     // K_N [F0/a] when the stage began
-  Vec2 start_stress{};            // [F0/a] static stress sigma_11, sigma_22 when the stage began
+  Vec<D> start_stress{};          // [F0/a] static stress sigma_11, sigma_22(, sigma_33) when the stage began
   double peak_stress = 0;         // [F0/a] largest change of the stress of a driven direction so far
   bool drifting = false;          // static solves have silenced the vibrations, but not what floppy modes still do
 };
@@ -52,18 +54,19 @@ struct Surroundings {
   friend bool operator==(const Surroundings&, const Surroundings&) = default;
 };
 
-// A system is a type with four members, Packing, Law, Memory and Engine, in a folder of its own (dem/systems.hpp).
+// A system is a type with its dimension, Packing, Law, Memory and Engine, in a folder of its own (dem/systems.hpp).
 template <class System>
 struct State {
+  static constexpr int D = System::dimension;
   typename System::Packing packing;  // positions, velocities and spins at `time`
   typename System::Law law;
   double time = 0;  // [T0]
   std::int64_t step = 0;
   double time_step = 0;  // dt [T0]
-  CellMotion cell_motion;
-  ImposedStress imposed_stress;    // of the current or last stage
-  typename System::Memory memory;  // empty: no solver has touched the packing
-  StageProgress progress;
+  CellMotion<D> cell_motion;
+  ImposedStress<D> imposed_stress;  // of the current or last stage
+  typename System::Memory memory;   // empty: no solver has touched the packing
+  StageProgress<D> progress;
   Surroundings surroundings;
   EnergyLedger ledger;
   Certificate certificate;

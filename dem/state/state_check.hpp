@@ -48,7 +48,8 @@ bool names_two_bodies(const Pair& pair, std::size_t n) {
 }
 
 // Lengths of the neighbour lists, and their positions.
-inline std::optional<StateFault> lists_fault(const ListMemory& m) {
+template <int D>
+std::optional<StateFault> lists_fault(const ListMemory<D>& m) {
   if (auto f = check_values(m.outer_position, "solver/outer_position")) return f;
   if (auto f = check_values(m.inner_position, "solver/inner_position")) return f;
   if (!finite(m.outer_length) || !finite(m.inner_length) || !finite(m.outer_travel) || !finite(m.inner_travel) ||

@@ -78,7 +78,7 @@ void Candidates::pack(const GrainStore& store, SeparationKernel separation, doub
     a_.resize(a_.size() + kernel::kLanes * pack.rows, pad), b_.resize(a_.size(), pad + 1);
     for (std::size_t l = 0; l < kernel::kLanes; ++l) {
       if (first + l >= order.size()) {
-        of_lane_.push_back({0, 0, kNoImage, kNowhere, 0, 0});
+        of_lane_.push_back({0, 0, kNoImage<2>, kNowhere, 0, 0});
         stiffness_.push_back(0), offset_x_.push_back(0), offset_y_.push_back(0), spring_.push_back(0);
         continue;
       }
@@ -123,7 +123,7 @@ void Candidates::build(const GrainStore& store, const Lists& lists, const Cell& 
         const std::uint32_t i = lists.i()[k], j = lists.j()[k];
         if (i >= store.size() || (store.driven(i) && store.driven(j))) continue;
         const std::uint8_t shift = lists.shift()[k];
-        add({i, j, shift, static_cast<std::uint32_t>(k), 0, 0}, cell ? cell->offset(image_shift(shift)) : Vec2{},
+        add({i, j, shift, static_cast<std::uint32_t>(k), 0, 0}, cell ? cell->offset(image_shift<2>(shift)) : Vec2{},
             lists.columns().history(k).tangential_force);
       }
       finish(p, group++);
@@ -148,7 +148,7 @@ void Candidates::build(const GrainStore& store, const Lists& lists, const Cell& 
           r[1] - reach > high[1])
         continue;
       const auto spring = known.find({store.id[g], store.id[w]});
-      add({static_cast<std::uint32_t>(g), static_cast<std::uint32_t>(w), kNoImage, kNowhere, 0, 0}, {},
+      add({static_cast<std::uint32_t>(g), static_cast<std::uint32_t>(w), kNoImage<2>, kNowhere, 0, 0}, {},
           spring == known.end() ? 0.0 : spring->second);
     }
   }
@@ -164,7 +164,7 @@ void Candidates::show(OverlapInput& in) {
 void Candidates::set_offsets(const Cell& cell) {
   if (!cell) return;
   for (std::size_t l = 0; l < of_lane_.size(); ++l) {
-    const Vec2 offset = cell->offset(image_shift(of_lane_[l].shift));
+    const Vec2 offset = cell->offset(image_shift<2>(of_lane_[l].shift));
     offset_x_[l] = offset[0], offset_y_[l] = offset[1];
   }
 }
@@ -190,7 +190,7 @@ auto Candidates::springs() const -> std::vector<PairMemory<GrainHistory>> {
     const Near& n = of_lane_[l];
     if (n.i != n.j && spring_[l] != 0)
       springs.push_back(
-          {static_cast<std::int32_t>(n.i), static_cast<std::int32_t>(n.j), image_shift(n.shift), {spring_[l]}});
+          {static_cast<std::int32_t>(n.i), static_cast<std::int32_t>(n.j), image_shift<2>(n.shift), {spring_[l]}});
   }
   return springs;
 }

@@ -17,6 +17,7 @@ namespace isostat {
 // What a listed pair of grains carries: its friction spring. Columns of NeighbourLists (dem/solver/neighbours.hpp).
 class GrainPairs {
  public:
+  static constexpr int kDimension = 2;
   using Bodies = GrainStore;
   using History = GrainHistory;
   static constexpr std::uint32_t kStride = 1;

@@ -43,7 +43,7 @@ double grain_length(const TrianglePacking& p) {
   return std::sqrt(largest);
 }
 
-double force_scale(const TrianglePacking& p, const ImposedStress& imposed, double gravity) {
+double force_scale(const TrianglePacking& p, const ImposedStress<2>& imposed, double gravity) {
   const double pressure = std::abs(largest_stress(imposed).value_or(0.0));
   const double scale = std::max(grain_length(p) * pressure, heaviest(p) * gravity);
   return scale > 0 ? scale : 1.0;
@@ -80,7 +80,7 @@ StressTensor measured_stress(const State<TriangleGrains>& state) {
   return {s.xx / area, s.xy / area, s.yx / area, s.yy / area};
 }
 
-Certificate evaluate_certificate(const TrianglePacking& p, const TriangleLaw& law, const ImposedStress& imposed,
+Certificate evaluate_certificate(const TrianglePacking& p, const TriangleLaw& law, const ImposedStress<2>& imposed,
                                  const EquilibriumScene& tolerance, double gravity) {
   Certificate c;
   const double length = grain_length(p);

@@ -11,7 +11,7 @@ namespace isostat {
 // The unit of length of the criteria: root of the area of the largest free grain [cm].
 double grain_length(const TrianglePacking& packing);
 // F1 = max(a P, weight of the heaviest free grain) [dyn]; 1 where neither is positive.
-double force_scale(const TrianglePacking& packing, const ImposedStress& imposed, double gravity);
+double force_scale(const TrianglePacking& packing, const ImposedStress<2>& imposed, double gravity);
 
 // Static loads of beams, overlaps, friction springs and weight on every triangle [dyn, dyn cm], from its positions.
 std::vector<BodyLoad> net_loads(const TrianglePacking& packing, const TriangleLaw& law, double gravity,
@@ -19,8 +19,9 @@ std::vector<BodyLoad> net_loads(const TrianglePacking& packing, const TriangleLa
 // sigma_ab of beams, overlaps and motion, compression positive [g/s^2]; needs a cell.
 StressTensor measured_stress(const State<TriangleGrains>& state);
 
-Certificate evaluate_certificate(const TrianglePacking& packing, const TriangleLaw& law, const ImposedStress& imposed,
-                                 const EquilibriumScene& tolerance, double gravity = 0);
+Certificate evaluate_certificate(const TrianglePacking& packing, const TriangleLaw& law,
+                                 const ImposedStress<2>& imposed, const EquilibriumScene& tolerance,
+                                 double gravity = 0);
 Certificate evaluate_certificate(const State<TriangleGrains>& state);
 // Overlaps that carry a force.
 std::size_t loaded_contacts(const State<TriangleGrains>& state);

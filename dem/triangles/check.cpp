@@ -97,7 +97,7 @@ void check_stages(const Scene& scene, std::vector<SceneConflict>& found) {
                        quoted_text("gear"),
                        "needs a cell that stays as it is; \"verlet\" where " + cell_keys(s, i).front() + " is given",
                        {"step.integrator", cell_keys(s, i).front()}});
-    const bool loaded = largest_stress(imposed_stress(s)).value_or(0) != 0 ||
+    const bool loaded = largest_stress(imposed_stress<2>(s)).value_or(0) != 0 ||
                         std::any_of(s.pressures.begin(), s.pressures.end(), [](double p) { return p > 0; });
     if (s.until == Until::equilibrium && scene.gravity == 0 && !loaded)
       found.push_back({until,

@@ -27,7 +27,7 @@ std::vector<PairMemory<GrainHistory>> springs_of(const State<TriangleGrains>& st
 
 }  // namespace
 
-TriangleEngine::TriangleEngine(const State<TriangleGrains>& state, const CellControl& control,
+TriangleEngine::TriangleEngine(const State<TriangleGrains>& state, const CellControl<2>& control,
                                const SolverOptions& options)
     : law_(state.law),
       overlap_needs_{law_.contact, law_.friction > 0 && law_.contact == ContactLaw::overlap_energy, control.moves()},
@@ -95,7 +95,7 @@ void TriangleEngine::start_half_steps() {
   }
 }
 
-Advance TriangleEngine::advance(const MotionStep& step, double drag) {
+Advance TriangleEngine::advance(const MotionStep<2>& step, double drag) {
   drag_ = drag;
   double move = integrator_ == Integrator::gear ? predict() : drift(step);
   time_ = step.time;
@@ -107,7 +107,7 @@ Advance TriangleEngine::advance(const MotionStep& step, double drag) {
   return {displacement, !(move <= kMostMove * smallest_reach_)};
 }
 
-double TriangleEngine::drift(const MotionStep& step) {
+double TriangleEngine::drift(const MotionStep<2>& step) {
   drift_tallies_.resize(chunks_.size());
   DriftInput in;
   in.arrays = store_.arrays();
@@ -155,7 +155,7 @@ void TriangleEngine::move_container() {
 
 // ---- forces ---------------------------------------------------------------------------------------------------------
 
-void TriangleEngine::compute_forces(const Cell& cell, const CellFlow& flow, double time_step) {
+void TriangleEngine::compute_forces(const Cell& cell, const CellFlow<2>& flow, double time_step) {
   cell_ = cell;
   if (kinetic_) candidates_.set_offsets(cell);
   const GrainArrays arrays = store_.arrays();
@@ -197,8 +197,8 @@ void TriangleEngine::compute_forces(const Cell& cell, const CellFlow& flow, doub
   for (const BeamTally& t : beam_tallies_) beam_tally_ += t;
 }
 
-StressSums TriangleEngine::sums() const {
-  StressSums sums;
+StressSums<2> TriangleEngine::sums() const {
+  StressSums<2> sums;
   for (int a = 0; a < 2; ++a) {
     sums.kinetic[a] = drift_tally_.kinetic[a];
     sums.virial[a] = overlap_tally_.virial[a] + beam_tally_.virial[a];

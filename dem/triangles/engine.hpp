@@ -22,16 +22,16 @@ class TriangleEngine {
   using Cell = std::optional<PeriodicCell<2>>;
   static constexpr const char* kListAdvice = "use more grains (grains.count), or lower stage.pressure or step.fraction";
 
-  TriangleEngine(const State<TriangleGrains>& state, const CellControl& control, const SolverOptions& options);
+  TriangleEngine(const State<TriangleGrains>& state, const CellControl<2>& control, const SolverOptions& options);
 
   bool begins() const { return begins_; }
   void start_half_steps();
 
-  Advance advance(const MotionStep& step, double drag);
+  Advance advance(const MotionStep<2>& step, double drag);
   void update_lists(const Cell& cell, double displacement);  // throws ListFailure
-  void compute_forces(const Cell& cell, const CellFlow& flow, double time_step);
+  void compute_forces(const Cell& cell, const CellFlow<2>& flow, double time_step);
   void correct();  // of Gear's scheme, with the forces at the predicted positions
-  StressSums sums() const;
+  StressSums<2> sums() const;
   void keep_books();  // beams that fail in this step
 
   void set_law(const TriangleLaw&, Springs) {}  // no stage changes it
@@ -55,7 +55,7 @@ class TriangleEngine {
   void take_wall_springs(std::vector<PairMemory<GrainHistory>>& springs);
   void mark_built();
   void move_container();
-  double drift(const MotionStep& step);
+  double drift(const MotionStep<2>& step);
   double predict();
   void snapshot_bodies(State<TriangleGrains>& state) const;
   void snapshot_memory(State<TriangleGrains>& state) const;

@@ -120,13 +120,14 @@ struct TriangleMemory {
   std::vector<Vec2> wall_position;  // of wall and lid triangles, in storage order, where the stage found the container
   std::vector<double> wall_angle;
   std::vector<PairMemory<GrainHistory>> pairs;  // of grains
-  ListMemory lists;                             // of grains
+  ListMemory<2> lists;                          // of grains
 };
 
 class TriangleEngine;
 
 struct TriangleGrains {
   static constexpr std::string_view name = "triangles";
+  static constexpr int dimension = 2;
   using Packing = TrianglePacking;
   using Law = TriangleLaw;
   using Memory = TriangleMemory;

@@ -45,7 +45,7 @@ DiskLaw law_of(double attraction) {
 AnalysisInput state_input(Packing<2> packing, const DiskLaw& law, std::optional<double> pressure) {
   AnalysisInput input = foreign(std::move(packing));
   input.state.law = law;
-  input.state.imposed_stress = isotropic(pressure);
+  input.state.imposed_stress = isotropic<2>(pressure);
   return input;
 }
 

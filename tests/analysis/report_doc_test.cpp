@@ -72,7 +72,7 @@ AnalysisInput cohesive_state() {
   input.state.law.friction = 0.5;
   input.state.law.attraction = 1;
   input.state.law.attraction_range = 1e-3;
-  input.state.imposed_stress = isotropic(0.01);
+  input.state.imposed_stress = isotropic<2>(0.01);
   return input;
 }
 

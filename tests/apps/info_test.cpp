@@ -35,7 +35,7 @@ State<Disks> two_disks() {
   s.packing.links.push_back({.i = 0, .j = 1, .kind = LinkKind::distant, .normal_force = -1.0});
   s.scene = read_scene(ISOSTAT_DATA "/scenes/disks-method1.toml");
   s.law = resolve(s.scene.law);
-  s.time = 12.5, s.time_step = 0.06 * std::sqrt(1e-5), s.imposed_stress = isotropic(0.01);
+  s.time = 12.5, s.time_step = 0.06 * std::sqrt(1e-5), s.imposed_stress = isotropic<2>(0.01);
   s.seed = 18446744073709551615u;
   return s;
 }

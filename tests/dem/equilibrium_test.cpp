@@ -80,9 +80,9 @@ TEST(Equilibrium, UnbalancedPairReportsItsForceInF1) {
 }
 
 TEST(Equilibrium, ForceScaleIsTheLargerOfAttractionAndPressure) {
-  EXPECT_EQ(force_scale(cohesive_law(), isotropic(0.01)), 1);
-  EXPECT_EQ(force_scale(cohesive_law(), isotropic(3.0)), 3);
-  EXPECT_EQ(force_scale(cohesionless_law(), isotropic(0.2)), 0.2);
+  EXPECT_EQ(force_scale(cohesive_law(), isotropic<2>(0.01)), 1);
+  EXPECT_EQ(force_scale(cohesive_law(), isotropic<2>(3.0)), 3);
+  EXPECT_EQ(force_scale(cohesionless_law(), isotropic<2>(0.2)), 0.2);
   EXPECT_EQ(force_scale(cohesionless_law(), {}), 1);
 }
 
@@ -157,8 +157,8 @@ TEST(Equilibrium, SquareLatticeCarriesItsPressure) {
   EXPECT_NEAR(s.xx, n / side, 1e-14);
   EXPECT_NEAR(s.yy, n / side, 1e-14);
   EXPECT_EQ(s.xy, 0);
-  EXPECT_TRUE(evaluate_certificate(p, law, isotropic(n / side), {}).equilibrated);
-  const Certificate off = evaluate_certificate(p, law, isotropic(n / side + 2e-4), {});
+  EXPECT_TRUE(evaluate_certificate(p, law, isotropic<2>(n / side), {}).equilibrated);
+  const Certificate off = evaluate_certificate(p, law, isotropic<2>(n / side + 2e-4), {});
   EXPECT_NEAR(off.pressure_error, 2e-4 / (n / side + 2e-4), 1e-10);
   EXPECT_FALSE(off.equilibrated);
   p.bodies.velocity[0] = {{0.3, 0}};  // the kinetic part counts in the stress

@@ -40,9 +40,9 @@ Difference difference(const State<Disks>& s, const DiskReference& reference) {
   return d;
 }
 
-CellControl barostat(const State<Disks>& s, double pressure, double cap = 0) {
-  CellControl c;
-  c.stress = isotropic(pressure), c.max_strain_rate = cap, c.inertia = 0.3 * oracle::total_mass(s);
+CellControl<2> barostat(const State<Disks>& s, double pressure, double cap = 0) {
+  CellControl<2> c;
+  c.stress = isotropic<2>(pressure), c.max_strain_rate = cap, c.inertia = 0.3 * oracle::total_mass(s);
   return c;
 }
 
@@ -98,7 +98,7 @@ std::vector<RunCase> run_cases() {
 
 TEST(Solver, DrivesOneDirectionAndLoadsTheOther) {
   State<Disks> s = random_state(with(soft_law(), 11));
-  CellControl control = barostat(s, 20, 2.0);
+  CellControl<2> control = barostat(s, 20, 2.0);
   control.stress[1].reset();
   control.strain_rate = {{0, -0.7}};
   DiskReference reference(s, control);
@@ -118,7 +118,7 @@ TEST(Solver, MarchesLikeTheReferenceSolver) {
   for (const RunCase& c : run_cases()) {
     SCOPED_TRACE(c.name);
     State<Disks> s = random_state(c.disks);
-    CellControl control;
+    CellControl<2> control;
     if (c.pressure) control = barostat(s, *c.pressure, 2.0);
     control.rate_coupling = c.rate_coupling;
     DiskReference reference(s, control);
@@ -197,7 +197,7 @@ TEST(NeighbourLists, HoldEveryInteractionOnceWhateverTheCellDoes) {
     r.diameter_min = c.diameter_min, r.law = soft_law(), r.law.attraction_range = c.range;
     if (c.diameter_min < 0.2) r.step_fraction = 0.01;
     State<Disks> s = random_state(r);
-    const CellControl control = c.pressure == 0 ? CellControl{} : barostat(s, c.pressure, 3.0);
+    const CellControl<2> control = c.pressure == 0 ? CellControl<2>{} : barostat(s, c.pressure, 3.0);
     Solver solver(s, control);
     std::size_t most = 0;
     for (std::int64_t k = 0; k < c.steps; ++k) {
@@ -217,7 +217,7 @@ TEST(NeighbourLists, HoldEveryInteractionOnceWhateverTheCellDoes) {
 TEST(NeighbourLists, ACellSmallerThanAGrainIsRefused) {
   RandomDisks r;
   r.count = 1, r.solid_fraction = 0.5, r.squeeze = 0.5, r.law = soft_law();
-  EXPECT_THROW(Solver(random_state(r), CellControl{}), RunError);
+  EXPECT_THROW(Solver(random_state(r), CellControl<2>{}), RunError);
   // ... and also when it becomes so in the run.
   r.count = 2, r.squeeze = 1, r.solid_fraction = 0.3;
   const State<Disks> s = random_state(r);
@@ -233,7 +233,7 @@ TEST(NeighbourLists, CarryTheSpringsOfEveryPair) {
   r.speed = 0.5, r.seed = 21;
   State<Disks> s = random_state(r);
   for (Vec2& v : s.packing.bodies.velocity) v += Vec2{{12, -8}};  // several cells in the run
-  const CellControl control = barostat(s, 30, 2.0);
+  const CellControl<2> control = barostat(s, 30, 2.0);
   DiskReference reference(s, control);
   Solver solver(s, control);
   for (int k = 0; k < 600; ++k) solver.step(), reference.step();

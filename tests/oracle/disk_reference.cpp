@@ -76,7 +76,7 @@ PairResponse pair_response(const DiskLaw& law, const PairMoment& c) {
   return out;
 }
 
-DiskReference::DiskReference(const State<Disks>& s, const CellControl& control)
+DiskReference::DiskReference(const State<Disks>& s, const CellControl<2>& control)
     : law_(s.law), control_(control), dt_(s.time_step), ledger_(s.ledger) {
   for (int a = 0; a < 2; ++a) {
     const auto k = static_cast<std::size_t>(a);

@@ -48,7 +48,7 @@ struct DiskMoment {
 class DiskReference {
  public:
   // Positions, full-step velocities and spins, cell, law, springs of the links; the solver's memory is not looked at.
-  DiskReference(const State<Disks>& state, const CellControl& control);
+  DiskReference(const State<Disks>& state, const CellControl<2>& control);
   void step();
   void set_drag(double rate) { drag_ = rate; }
 
@@ -70,7 +70,7 @@ class DiskReference {
   void stress(double virial_x, double virial_y, double kinetic_x, double kinetic_y);
 
   DiskLaw law_;
-  CellControl control_;
+  CellControl<2> control_;
   double dt_ = 0, drag_ = 0;
   std::array<double, 2> length_{}, reference_{}, rate_{}, stress_{}, flow_half_{}, flow_now_{};
   std::vector<DiskMoment> disks_;

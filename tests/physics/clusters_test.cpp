@@ -253,9 +253,9 @@ TEST(Lattice, HasItsKnownStress) {
       s.packing.cell = PeriodicCell<2>{{{n * d, n * row_height}}};
       s.cell_motion.reference_length = s.packing.cell->length;
       s.time_step = 1e-4;
-      CellControl control;
+      CellControl<2> control;
       const double stress = (triangular ? std::sqrt(3) : 1) * normal / d;
-      control.stress = isotropic(stress);
+      control.stress = isotropic<2>(stress);
       Solver solver(s, control);
       solver.run(200);
       solver.snapshot(s);

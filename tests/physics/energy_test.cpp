@@ -15,9 +15,9 @@ namespace {
 using oracle::random_state;
 using oracle::RandomDisks;
 
-CellControl barostat(const State<Disks>& s, double pressure, double cap) {
-  CellControl c;
-  c.stress = isotropic(pressure), c.max_strain_rate = cap, c.inertia = 0.3 * oracle::total_mass(s);
+CellControl<2> barostat(const State<Disks>& s, double pressure, double cap) {
+  CellControl<2> c;
+  c.stress = isotropic<2>(pressure), c.max_strain_rate = cap, c.inertia = 0.3 * oracle::total_mass(s);
   return c;
 }
 
@@ -32,7 +32,7 @@ TEST(Momentum, IsConservedToRounding) {
         p += s.packing.bodies.mass[k] * s.packing.bodies.velocity[k];
       return p;
     };
-    Solver solver(s, free_cell ? barostat(s, 50, 2) : CellControl{});
+    Solver solver(s, free_cell ? barostat(s, 50, 2) : CellControl<2>{});
     solver.snapshot(s);
     const Vec2 before = momentum();
     solver.run(2000);
@@ -89,7 +89,7 @@ double ledger_error(const Gas& gas, double step_fraction) {
     r.law.damping = gas.damping;
     r.step_fraction = step_fraction;
     State<Disks> s = random_state(r);
-    CellControl control;
+    CellControl<2> control;
     if (gas.pressure > 0) control = barostat(s, gas.pressure, 0.05);
     control.rate_coupling = gas.rate_coupling;
     SolverOptions options;

@@ -36,7 +36,7 @@ State<Disks> relaxed(State<Disks> s, int steps) {
   for (auto& w : s.packing.bodies.spin) w = 0;
   s.cell_motion = {};
   s.cell_motion.reference_length = s.packing.cell->length;
-  Solver solver(s, CellControl{}, {});
+  Solver solver(s, CellControl<2>{}, {});
   solver.set_drag(3.0);
   solver.run(steps);
   solver.snapshot(s);

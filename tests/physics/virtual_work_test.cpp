@@ -87,9 +87,10 @@ std::vector<Kernel> kernels() {
 }
 
 // The wall of the cell does not move: all that differs between the tallies is the kernel.
-CellControl control_of(const Kernel& k, const State<Disks>& s) {
-  CellControl c;
-  if (k.tally == Tally::stress) c.stress = isotropic(0.1), c.max_strain_rate = 1e-12, c.inertia = oracle::total_mass(s);
+CellControl<2> control_of(const Kernel& k, const State<Disks>& s) {
+  CellControl<2> c;
+  if (k.tally == Tally::stress)
+    c.stress = isotropic<2>(0.1), c.max_strain_rate = 1e-12, c.inertia = oracle::total_mass(s);
   return c;
 }
 SolverOptions options_of(const Kernel& k) { return {1, k.isa, k.tally == Tally::energy}; }

@@ -25,7 +25,7 @@ template <class System>
 struct Variant {
   std::string name;
   State<System> state;
-  CellControl control;
+  CellControl<2> control;
 };
 
 template <class System>
@@ -48,7 +48,7 @@ struct Fixture<Disks> {
           r.law.rolling = law.ends_with("rolling");
           Variant<Disks> v{law + (adhesion ? ", adhesion, " : ", ") + room, random_state(r), {}};
           if (room == "free cell") {
-            v.control.stress = isotropic(100), v.control.max_strain_rate = 2;
+            v.control.stress = isotropic<2>(100), v.control.max_strain_rate = 2;
             v.control.inertia = 0.3 * oracle::total_mass(v.state);
           }
           if (room == "no cell") v.state.packing.cell.reset(), v.state.cell_motion = {};
@@ -99,7 +99,7 @@ struct Fixture<TriangleGrains> {
     return v;
   }
   static void free_cell(Variant<TriangleGrains>& v) {
-    v.control.stress = isotropic(2e3), v.control.max_strain_rate = 20;
+    v.control.stress = isotropic<2>(2e3), v.control.max_strain_rate = 20;
     v.control.inertia = 0.3 * oracle::total_mass(v.state);
   }
   static TriangleLawScene failing(BeamFailure failure) {
@@ -229,7 +229,7 @@ struct Fixture<TriangleGrains> {
 using Systems = ::testing::Types<Disks, TriangleGrains>;
 
 template <class System>
-State<System> marched(State<System> s, const CellControl& control, std::int64_t steps, SolverOptions options = {}) {
+State<System> marched(State<System> s, const CellControl<2>& control, std::int64_t steps, SolverOptions options = {}) {
   Solver<System> solver(s, control, options);
   solver.run(steps);
   solver.snapshot(s);

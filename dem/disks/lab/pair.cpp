@@ -51,7 +51,7 @@ class HeldPair {
     rows_[3 * kernel::kRowWidth] = 1e6;
     std::fill(std::begin(i_), std::end(i_), 2 * kernel::kRowWidth);  // the padding pair
     std::fill(std::begin(j_), std::end(j_), 3 * kernel::kRowWidth);
-    std::fill(std::begin(shift_), std::end(shift_), kNoImage);
+    std::fill(std::begin(shift_), std::end(shift_), kNoImage<2>);
     std::fill(std::begin(sum_), std::end(sum_), 1.0);
     i_[0] = 0, j_[0] = kernel::kRowWidth;
     set_gap(-overlap);

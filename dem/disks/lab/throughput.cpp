@@ -28,12 +28,12 @@ Throughput measure_throughput(Packing<2> packing, const ThroughputSetup& setup) 
 
   SolverOptions options;
   options.threads = setup.threads;
-  CellControl control;
+  CellControl<2> control;
   if (setup.free_cell) {
     State<Disks> probe = state;
     Solver(state, {}, options).snapshot(probe);
     const StressTensor stress = measured_stress(probe.packing);
-    control.stress = isotropic(0.5 * (stress.xx + stress.yy));
+    control.stress = isotropic<2>(0.5 * (stress.xx + stress.yy));
     control.max_strain_rate = 0.05;
     control.inertia = 0;
     for (double m : state.packing.bodies.mass) control.inertia += 0.3 * m;

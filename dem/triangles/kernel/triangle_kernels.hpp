@@ -101,7 +101,7 @@ struct DriftInput {
   std::size_t begin = 0, end = 0;  // slots; multiples of 8
   GrainArrays arrays{};
   double time_step = 0;
-  double scale[2] = {1, 1}, drift[2] = {0, 0}, keep[2] = {1, 1}, keep_spin = 1;  // see MotionStep
+  double scale[2] = {1, 1}, drift[2] = {0, 0}, keep[2] = {1, 1}, keep_spin = 1;  // see MotionStep<2>
   double weight = 0;                                                             // [cm/s^2] downward acceleration
 };
 struct DriftTally {

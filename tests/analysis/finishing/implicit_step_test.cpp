@@ -50,7 +50,7 @@ TEST(ImplicitStep, ASpinningPairStaysAPair) {
     b.velocity[k] = {{drift, spin * (b.position[k][0] - centre[0])}};
   }
   const Vec2 before = momentum(s);
-  const FinishingRequest request;
+  const FinishingRequest<2> request;
   SettlingNetwork network(s, request);
   ImplicitStep step(network, network.velocities(s), 0);
   for (int k = -2; k < steps; ++k) {  // two short steps first: the guess needs a history
@@ -75,7 +75,7 @@ TEST(ImplicitStep, ForeseesACapture) {
   State<Disks> s = pair(0.01);
   const double speed = 0.02;
   s.packing.bodies.velocity[0] = {{speed, 0}};
-  const FinishingRequest request;
+  const FinishingRequest<2> request;
   SettlingNetwork network(s, request);
   ImplicitStep step(network, network.velocities(s), 0);
   const double free_for = (0.01 - 1e-3) / speed;
@@ -93,7 +93,7 @@ TEST(ImplicitStep, ForeseesACapture) {
 TEST(ImplicitStep, ThePatternGrowsWithTheLinks) {
   State<Disks> s = pair(1.1e-3);
   s.packing.bodies.velocity[0] = {{0.02, 0}};
-  const FinishingRequest request;
+  const FinishingRequest<2> request;
   SettlingNetwork network(s, request);
   const std::size_t apart = network.shifted_stiffness(1).row.size();
   const std::int64_t patterns = network.patterns();

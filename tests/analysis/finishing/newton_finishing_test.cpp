@@ -39,7 +39,7 @@ Scene scene_of(Finish method, bool rolling = true, double attraction = 1) {
 
 constexpr int kUnloadings = 20;
 
-FinishingRequest request_for(const State<Disks>& s, double stress) {
+FinishingRequest<2> request_for(const State<Disks>& s, double stress) {
   return {{stress, stress}, s.scene.cell.inertia * oracle::total_mass(s)};
 }
 
@@ -61,8 +61,8 @@ State<Disks> ringing(const Scene& scene, std::uint64_t seed, double time) {
 
 // Marched on by the solver under a drag, to forces far below the tolerance: the slow, obvious way to rest.
 State<Disks> marched_to_rest(State<Disks> s, double stress, double time) {
-  CellControl c;
-  c.stress = isotropic(stress), c.max_strain_rate = 0.2;
+  CellControl<2> c;
+  c.stress = isotropic<2>(stress), c.max_strain_rate = 0.2;
   c.inertia = s.scene.cell.inertia * oracle::total_mass(s);
   Solver solver(s, c, same_everywhere());
   solver.set_drag(1.0);
@@ -132,7 +132,7 @@ TEST(NewtonFinishing, EndsWhereTheSolverEnds) {
       }
       // The solver takes it for rest too: nothing happens in a few T0.
       const State<Disks> later = marched_to_rest(s, stress, 5);
-      EXPECT_LT(evaluate_certificate(later.packing, s.law, isotropic(stress), s.scene.equilibrium).max_force, 1e-9);
+      EXPECT_LT(evaluate_certificate(later.packing, s.law, isotropic<2>(stress), s.scene.equilibrium).max_force, 1e-9);
     }
 }
 
@@ -145,7 +145,7 @@ TEST(NewtonFinishing, ContactsOpenWhileItSettles) {
   State<Disks> slow = fast;
   for (int k = 1; k <= kUnloadings; ++k) {
     const double stress = 1 - 0.4 * k / kUnloadings;
-    fast.imposed_stress = isotropic(stress);
+    fast.imposed_stress = isotropic<2>(stress);
     const FinishingReport report = NewtonFinishing().settle(fast, request_for(fast, stress));
     ASSERT_TRUE(report.settled) << report.reason;
     EXPECT_LT(report.residual, 2e-10);
@@ -187,7 +187,7 @@ TEST(NewtonFinishing, LeavesAStateItCannotSettleAsItIs) {
 TEST(NewtonFinishing, CallsAFloppyModeThatStillMovesNoEquilibrium) {
   State<Disks> s = initial_disks(scene_of(Finish::none), 3);
   ASSERT_TRUE(s.packing.links.empty());
-  s.imposed_stress = isotropic(5e-5);
+  s.imposed_stress = isotropic<2>(5e-5);
   const FinishingReport report = NewtonFinishing().settle(s, request_for(s, 5e-5));
   EXPECT_FALSE(report.settled);
   EXPECT_TRUE(report.advanced);
@@ -241,7 +241,7 @@ TEST(NewtonFinishing, DoesNotSeeTheStorageOrder) {
   b.memory = {};
   for (Link<2>& l : b.packing.links) l.i = n - 1 - l.i, l.j = n - 1 - l.j;
   std::reverse(b.packing.links.begin(), b.packing.links.end());
-  const FinishingRequest request = request_for(a, kPressure);
+  const FinishingRequest<2> request = request_for(a, kPressure);
   ASSERT_TRUE(NewtonFinishing().settle(a, request).settled);
   ASSERT_TRUE(NewtonFinishing().settle(b, request).settled);
   for (std::size_t k = 0; k < from.size(); ++k)
@@ -254,7 +254,7 @@ TEST(NewtonFinishing, DoesNotSeeTheStorageOrder) {
 TEST(NewtonFinishing, OneEdgeMayBeFixed) {
   const State<Disks> start = ringing(scene_of(Finish::none), 3, 60);
   State<Disks> s = start;
-  FinishingRequest q = request_for(s, kPressure);
+  FinishingRequest<2> q = request_for(s, kPressure);
   q.stress = {std::nullopt, kPressure};
   const FinishingReport report = NewtonFinishing().settle(s, q);
   ASSERT_TRUE(report.settled) << report.reason;
@@ -313,7 +313,7 @@ TEST(NewtonFinishing, ARunWithoutASolverIsRefused) {
 class Reluctant : public StaticSolver<Disks> {
  public:
   explicit Reluctant(int refusals) : left_(refusals) {}
-  FinishingReport settle(State<Disks>& state, const FinishingRequest& request) override {
+  FinishingReport settle(State<Disks>& state, const FinishingRequest<2>& request) override {
     times.push_back(state.time);
     if (left_-- > 0) return {};
     return finisher_.settle(state, request);

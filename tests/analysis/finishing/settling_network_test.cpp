@@ -26,13 +26,13 @@ State<Disks> stretched_state(double friction, std::uint64_t seed) {
   r.law.friction = friction, r.law.rolling_friction = 0.1 * friction;
   r.seed = seed, r.speed = 0.5;
   State<Disks> s = oracle::random_state(r);
-  Solver solver(s, CellControl{}, {});
+  Solver solver(s, CellControl<2>{}, {});
   solver.run(20);
   solver.snapshot(s);
   return s;
 }
-FinishingRequest request(bool free_cell) {
-  FinishingRequest q;
+FinishingRequest<2> request(bool free_cell) {
+  FinishingRequest<2> q;
   if (free_cell) q.stress = {3.0, 5.0};
   q.cell_inertia = 7;
   return q;
@@ -56,7 +56,7 @@ TEST(SettlingNetwork, ForcesAreThoseOfTheCertificate) {
   const SettlingNetwork::Balance b = network.balance();
   State<Disks> still = s;
   for (Vec2& v : still.packing.bodies.velocity) v = {};
-  const Certificate c = evaluate_certificate(still.packing, s.law, isotropic(3.0), s.scene.equilibrium);
+  const Certificate c = evaluate_certificate(still.packing, s.law, isotropic<2>(3.0), s.scene.equilibrium);
   ASSERT_GT(c.max_force, 1);
   EXPECT_NEAR(b.force / (c.max_force * c.force_scale), 1, 1e-12);
   EXPECT_NEAR(b.moment / (c.max_moment * c.force_scale), 1, 1e-12);

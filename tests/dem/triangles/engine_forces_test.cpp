@@ -75,8 +75,8 @@ TEST(EngineForces, AreThoseAtRestForEveryInstructionSet) {
           Random random(5);
           for (Overlap& o : s.packing.overlaps)
             o.tangential_force = friction * o.normal_force * (2 * random.uniform() - 1);
-          CellControl control;
-          if (s.packing.cell) control.stress = isotropic(0.0);
+          CellControl<2> control;
+          if (s.packing.cell) control.stress = isotropic<2>(0.0);
           for (const Isa isa : machine_isas()) {
             SolverOptions options;
             options.isa = isa;
@@ -101,7 +101,7 @@ TEST(EngineForces, MissNoOverlapInFastFlow) {
       m.count = 50, m.shapes = shapes, m.speed = 60;
       if (m.shapes != "square") m.law = oracle::soft_beams();
       m.law.damping = 0;  // so that all forces are those at rest
-      CellControl control;
+      CellControl<2> control;
       if (box) {
         m.container.shape = ContainerShape::box, m.container.walls = ContainerWalls::grains, m.container.width = 2;
         m.gravity = 981, m.motion.vibration_amplitude = 0.05, m.motion.vibration_frequency = 300;

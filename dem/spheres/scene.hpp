@@ -1,0 +1,45 @@
+// What the user asks for of spheres: grains, law and materials (dem/scene/scene.hpp has the tables common to all
+// systems). Units are any consistent set: reduced (a, m, F0), or SI with a = 1 m, m = 1 kg, F0 = 1 N and T0 = 1 s.
+#pragma once
+#include <array>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace isostat {
+
+// [grains]: N spheres of a size distribution, in random non-overlapping positions in a periodic cell.
+struct SphereGrainsScene {
+  int count = 1000;
+  double solid_fraction = 0.3;            // [-] Phi_I
+  double diameter_min = 0.5;              // [a]
+  double diameter_max = 1.0;              // [a]
+  std::optional<double> exponent;         // b of N(r) ~ r^-b; absent: uniform between the two diameters
+  double density = 6 / std::numbers::pi;  // [m/a^3] a sphere of diameter a has the mass m
+  std::string file;                       // a state or .net file to start from instead; empty: random
+  friend bool operator==(const SphereGrainsScene&, const SphereGrainsScene&) = default;
+};
+
+enum class NormalForce { hertz, linear };
+inline constexpr std::array<std::string_view, 2> kNormalForceNames{"hertz", "linear"};
+
+// [law] of spheres.
+struct SphereLawScene {
+  NormalForce normal = NormalForce::hertz;
+  double modulus = 1e5;                        // E [F0/a^2], Hertz
+  double poisson = 0.3;                        // nu [-], Hertz
+  double normal_stiffness = 1e5;               // K_N [F0/a], linear
+  std::optional<double> tangential_stiffness;  // K_T [F0/a], linear; default K_N
+  double damping = 0.3;                        // zeta [-] of the critical damping of the pair at its overlap
+  double tangential_damping = 0.5;             // [-] of the normal damping coefficient; the force is capped by Coulomb
+  double friction = 0.3;                       // mu [-]
+  bool rolling = false;                        // rolling resistance on
+  std::optional<double> rolling_friction;      // mu_r [a], default 0.01 mu a
+  std::optional<double> rolling_stiffness;     // K_r [F0 a], default 1e-4 a^2 K_N
+  double attraction = 0.0;                     // F0 [F0]; 0: no cohesion
+  double attraction_range = 1e-3;              // D0 [a]
+  friend bool operator==(const SphereLawScene&, const SphereLawScene&) = default;
+};
+
+}  // namespace isostat
