@@ -113,7 +113,7 @@ void print_scales(const PackJob& job, const State<TriangleGrains>& state) {
 
 void print_scales(const PackJob& job, const State<Disks>& state) {
   State<Disks> first = state;
-  first.imposed_stress = job.scene.stages.empty() ? ImposedStress<2>{} : imposed_stress(job.scene.stages.front());
+  first.imposed_stress = job.scene.stages.empty() ? ImposedStress<2>{} : imposed_stress<2>(job.scene.stages.front());
   const Scales s = scales(first);
   std::cerr << "kappa " << text(s.kappa) << "  P* " << text(s.reduced_pressure) << "  h0/D0 "
             << text(s.overlap_over_range) << "  e_N " << text(s.restitution) << "  V* " << text(s.velocity) << "  T0 "

@@ -44,6 +44,9 @@ constexpr double dot(const Vec<D>& a, const Vec<D>& b) {
   for (int k = 0; k < D; ++k) s += a[k] * b[k];
   return s;
 }
+constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
+}
 template <int D>
 double norm(const Vec<D>& a) {
   return std::sqrt(dot(a, a));
