@@ -71,6 +71,7 @@ class Solver {
   const CellMotion<D>& cell_motion() const { return cell_motion_; }
   StepTimes times() const { return times_; }
   const Engine& engine() const { return engine_; }
+  Engine& engine() { return engine_; }  // for protocols that interfere between steps
 
   // The instant as data: packing with full-step velocities and links, and the memory for a restart. Reads only.
   void snapshot(State<System>& state) const;

@@ -4,7 +4,7 @@
 #include <iostream>
 #include <vector>
 
-#include "dem/disks/kernel/pair_force.hpp"
+#include "dem/solver/isa.hpp"
 
 namespace isostat {
 
