@@ -9,46 +9,16 @@
 #include "dem/disks/scales.hpp"
 #include "dem/files/packing_file.hpp"
 #include "dem/input_error.hpp"
+#include "dem/sample/random_placement.hpp"
 #include "dem/scene/check.hpp"
 #include "dem/scene/text.hpp"
 #include "dem/solver/random.hpp"
 #include "dem/state/container_motion.hpp"
 #include "dem/state/container_region.hpp"
 #include "dem/state/touching.hpp"
-#include "geometry/cell_grid.hpp"
 
 namespace isostat {
 namespace {
-
-// Random sequential placement, largest first, with a grid of cells of the largest diameter: in a periodic cell, or in a
-// room (its columns at the edges see those on the other side, where nothing is near).
-class Placement {
- public:
-  Placement(const Frame<2>& frame, double largest_diameter, double gap, std::size_t bodies)
-      : gap_(gap), grid_(frame, largest_diameter + gap, bodies), members_(grid_.size()) {
-    if (frame.periodic) cell_ = PeriodicCell<2>{frame.length};
-  }
-
-  bool free(const Vec2& r, double radius, const Bodies<2>& bodies) const {
-    const std::array<int, 2> c = grid_.columns(r), n{grid_.count(0), grid_.count(1)};
-    for (int oy = -1; oy <= 1; ++oy)
-      for (int ox = -1; ox <= 1; ++ox)
-        for (const std::size_t k :
-             members_[grid_.index(std::array<int, 2>{(c[0] + ox + n[0]) % n[0], (c[1] + oy + n[1]) % n[1]})]) {
-          Vec2 d = bodies.position[k] - r;
-          if (cell_) d += cell_->offset(cell_->nearest_image(d));
-          if (norm(d) < radius + bodies.radius[k] + gap_) return false;
-        }
-    return true;
-  }
-  void add(const Vec2& r, std::size_t k) { members_[grid_.index(r)].push_back(k); }
-
- private:
-  std::optional<PeriodicCell<2>> cell_;
-  double gap_;
-  CellGrid<2> grid_;
-  std::vector<std::vector<std::size_t>> members_;
-};
 
 constexpr int kMostTries = 20000;  // per disk
 
@@ -218,7 +188,7 @@ State<Disks> initial_disks(const Scene& scene, std::uint64_t seed) {
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t p, std::size_t q) { return diameters[p] > diameters[q]; });
-  Placement placement(room.frame, diameters[order[0]], state.law.attraction_range, n);
+  Placement<2> placement(room.frame, diameters[order[0]], state.law.attraction_range, n);
   for (std::size_t k : order) {
     b.id[k] = static_cast<std::int64_t>(k);
     b.radius[k] = diameters[k] / 2;

@@ -110,8 +110,10 @@ std::vector<std::string> cell_keys(const StageScene& s, std::size_t index) {
   if (!s.pressures.empty()) keys.push_back(stage_key(index, "pressures"));
   if (s.stress_1) keys.push_back(stage_key(index, "stress_1"));
   if (s.stress_2) keys.push_back(stage_key(index, "stress_2"));
+  if (s.stress_3) keys.push_back(stage_key(index, "stress_3"));
   if (s.strain_rate_1) keys.push_back(stage_key(index, "strain_rate_1"));
   if (s.strain_rate_2) keys.push_back(stage_key(index, "strain_rate_2"));
+  if (s.strain_rate_3) keys.push_back(stage_key(index, "strain_rate_3"));
   return keys;
 }
 

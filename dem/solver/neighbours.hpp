@@ -103,7 +103,7 @@ class NeighbourLists {
   static constexpr int kPhases = 4;
   static int chunk_count(std::size_t bodies);
   int chunks() const { return chunks_; }
-  std::size_t chunk_begin(int chunk) const;  // first body of the chunk
+  std::size_t chunk_begin(int chunk) const;                                      // first body of the chunk
   const std::vector<Vec<D>>& inner_position() const { return inner_position_; }  // [a] when the inner list was made
   const Cell& inner_cell() const { return inner_cell_; }
   std::size_t inner_pairs() const { return i_.size(); }

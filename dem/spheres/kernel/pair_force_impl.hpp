@@ -80,8 +80,7 @@ PairForceTally pair_forces(const PairForceInput& input) {
     const PairFrame3<V> f = pair_frame<V>(d.r, radius_sum);
     const auto contact = f.gap < zero;
     const V overlap = max(-f.gap, zero);
-    const V stiffness =
-        Law::Normal::stiffens ? load<V>(in.pairs.stiffness + k) : V(law.normal_stiffness);
+    const V stiffness = Law::Normal::stiffens ? load<V>(in.pairs.stiffness + k) : V(law.normal_stiffness);
     const law::Repulsion<V> elastic = Law::Normal::force(stiffness, overlap);
 
     V normal = elastic.repulsion, damping(0.0), receding(0.0);
