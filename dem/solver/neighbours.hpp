@@ -16,6 +16,7 @@
 //   resize(n), fill(k, bodies, i, j), history(k), remember(k, history), static turned(history)
 //   static inner_skin(displacement of neighbours a step, mean diameter), kOuterSkin: optional, where the default skins
 //   do not suit
+//   kShortRows         optional: bodies are sorted row by row along the shorter side of what holds them, not along x
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -116,7 +117,7 @@ class NeighbourLists {
   void find_outer(const Bodies& bodies);
   void filter_inner(const Bodies& bodies, const std::vector<Pair>& histories);
   std::vector<Pair> histories() const;
-  CellGrid<2> grid_for(const std::vector<Vec2>& position, double cutoff) const;
+  CellGrid<2> grid_in(const Frame<2>& frame, double cutoff) const;
   double outer_skin_for(const Cell& cell) const;
   double inner_skin_for(double pair_displacement) const;
   std::size_t segment_of(std::int32_t i, std::int32_t j, std::uint8_t shift) const;

@@ -72,8 +72,7 @@ double NeighbourLists<Columns>::outer_skin_for(const Cell& cell) const {
 }
 
 template <class Columns>
-CellGrid<2> NeighbourLists<Columns>::grid_for(const std::vector<Vec2>& position, double cutoff) const {
-  const Frame<2> frame = frame_of(outer_cell_, position);
+CellGrid<2> NeighbourLists<Columns>::grid_in(const Frame<2>& frame, double cutoff) const {
   for (int k = 0; k < 2; ++k) {
     if (!std::isfinite(frame.length[k])) throw ListFailure("a position is not a number");
     if (frame.periodic && !(frame.length[k] >= cutoff))
@@ -146,7 +145,13 @@ void NeighbourLists<Columns>::sort_bodies(Bodies& bodies, const Cell& cell, std:
     }
     bodies.place(k, r);
   }
-  const GridMembers<2> members(grid_for(position, largest_diameter_ + range_), position);
+  Frame<2> frame = frame_of(outer_cell_, position);
+  if constexpr (requires { Columns::kShortRows; })
+    if (frame.length[0] > frame.length[1]) {
+      std::swap(frame.origin[0], frame.origin[1]), std::swap(frame.length[0], frame.length[1]);
+      for (Vec2& r : position) std::swap(r[0], r[1]);
+    }
+  const GridMembers<2> members(grid_in(frame, largest_diameter_ + range_), position);
   std::vector<std::int32_t> to(bodies_);
   for (std::size_t n = 0; n < bodies_; ++n)
     to[static_cast<std::size_t>(members.member[n])] = static_cast<std::int32_t>(n);
@@ -174,7 +179,7 @@ void NeighbourLists<Columns>::find_outer(const Bodies& bodies) {
   for (std::size_t k = 0; k < bodies_; ++k) outer_position_[k] = bodies.position(k);
   outer_i_.clear(), outer_j_.clear(), outer_shift_.clear();
 
-  const CellGrid<2> grid = grid_for(outer_position_, largest_diameter_ + range_ + outer_skin_);
+  const CellGrid<2> grid = grid_in(frame_of(outer_cell_, outer_position_), largest_diameter_ + range_ + outer_skin_);
   const GridMembers<2> members(grid, outer_position_);
   for (std::size_t i = 0; i < bodies_; ++i) {
     const Vec2 ri = outer_position_[i];
@@ -230,21 +235,25 @@ void NeighbourLists<Columns>::filter_inner(const Bodies& bodies, const std::vect
   std::vector<std::size_t> count(segments, 0);
   std::vector<std::uint32_t> near;
   std::vector<std::uint16_t> segment;
-  near.reserve(2 * bodies_), segment.reserve(2 * bodies_);
+  near.resize(outer_i_.size()), segment.reserve(2 * bodies_);
   double offsets[9][2];
   for (std::uint8_t c = 0; c < 9; ++c) {
     const Vec2 o = inner_cell_ ? inner_cell_->offset(image_shift(c)) : Vec2{};
     offsets[c][0] = o[0], offsets[c][1] = o[1];
   }
   const double reach_beyond = range_ + inner_skin_;
+  std::size_t found = 0;
   for (std::size_t k = 0; k < outer_i_.size(); ++k) {
     const auto i = static_cast<std::size_t>(outer_i_[k]), j = static_cast<std::size_t>(outer_j_[k]);
     const double* o = offsets[outer_shift_[k]];
     const double dx = inner_position_[j][0] + o[0] - inner_position_[i][0];
     const double dy = inner_position_[j][1] + o[1] - inner_position_[i][1];
     const double reach = bodies.radius(i) + bodies.radius(j) + reach_beyond;
-    if (dx * dx + dy * dy > reach * reach) continue;
-    near.push_back(static_cast<std::uint32_t>(k));
+    near[found] = static_cast<std::uint32_t>(k);  // counts if it is
+    found += !(dx * dx + dy * dy > reach * reach);
+  }
+  near.resize(found);
+  for (const std::uint32_t k : near) {
     segment.push_back(static_cast<std::uint16_t>(segment_of(outer_i_[k], outer_j_[k], outer_shift_[k])));
     ++count[segment.back()];
   }

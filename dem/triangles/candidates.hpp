@@ -26,6 +26,7 @@ class GrainPairs {
   History history(std::size_t k) const { return {spring_[k]}; }
   void remember(std::size_t k, const History& h) { spring_[k] = h.tangential_force; }
   static History turned(const History& h) { return h; }  // along z x n, which turns with the pair
+  static constexpr bool kShortRows = true;  // a bed is wide: what touches is a row apart, in the second-level cache
 
   // A step costs 1.4 ns a triangle more for every .001 cm of skin (candidates), a rebuild 80 ns a triangle every skin /
   // displacement steps: the sum is least at the root of kSkin d times the displacement (TRIANGLES.md 2, sides .1-.2).
