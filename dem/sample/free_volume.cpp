@@ -8,7 +8,6 @@ namespace {
 
 constexpr double kFinestEdge = 1.0 / 3;  // [radius of the next grain] cells are not divided below
 constexpr double kMostRoots = 64;        // along an axis of a long box
-constexpr std::uint32_t kDeepest = 25;   // columns fit in 32 bits
 
 }  // namespace
 

@@ -52,8 +52,9 @@ Placed<D> place(const Enclosure<D>& enclosure, const std::vector<double>& radii,
         open.refine(point, in_the_way);
         continue;
       }
-      grains.add(point.position, radius);
-      placed.position.push_back(point.position), placed.radius.push_back(radius);
+      const Vec<D> at = enclosure.cell ? enclosure.cell->wrap(point.position) : point.position;  // L by rounding is 0
+      grains.add(at, radius);
+      placed.position.push_back(at), placed.radius.push_back(radius);
       work.blind_trials += used;
       break;
     }
