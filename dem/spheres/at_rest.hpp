@@ -56,7 +56,8 @@ inline double tangential_stiffness(const SphereLaw& law, const ContactStiffness&
 // By the gap: of a contact N = N_e - F0, of a distant link within reach N = -F0 (1 - h/D0); nothing beyond D0.
 inline AtRest at_rest(const SphereLaw& law, const ContactStiffness& c, double gap) {
   if (gap < 0) {
-    const double force = repulsion(law, c, gap), elastic = (law.normal == NormalForce::hertz ? 0.4 : 0.5) * force * -gap;
+    const double force = repulsion(law, c, gap),
+                 elastic = (law.normal == NormalForce::hertz ? 0.4 : 0.5) * force * -gap;
     return {force - law.attraction, normal_stiffness(law, c, gap), elastic,
             -(law.attraction * (0.5 * law.attraction_range - gap))};
   }

@@ -96,13 +96,13 @@ class SphereEngine {
   Lists lists_;
   std::size_t rebuilds_seen_ = 0;
   std::vector<SphereWall> walls_;
-  std::vector<std::size_t> near_begin_;  // of a chunk of bodies, in the store's near_walls
-  std::vector<SphereMotionTally> motion_tallies_;        // by chunk
+  std::vector<std::size_t> near_begin_;                 // of a chunk of bodies, in the store's near_walls
+  std::vector<SphereMotionTally> motion_tallies_;       // by chunk
   std::vector<spheres::PairForceTally> force_tallies_;  // by group of a phase
   SphereMotionTally motion_tally_;
   spheres::PairForceTally force_tally_;
-  Cell cell_;            // of the last forces
-  CellFlow<3> flow_;     // of the last forces
+  Cell cell_;                                            // of the last forces
+  CellFlow<3> flow_;                                     // of the last forces
   double smallest_diameter_ = 0, largest_diameter_ = 0;  // [a]
   double prediction_ = 0.5;                              // [dt]
 };

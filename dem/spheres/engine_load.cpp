@@ -23,8 +23,7 @@ SphereEngine::SphereEngine(const State<Spheres>& state, const CellControl<3>& co
   if (options.energies) throw InputError("scene", 0, "output.energies", "true", "there is no energy ledger of spheres");
   if (!state.packing.part.empty())
     throw InputError("scene", 0, "grains", "", "spheres are no parts of a container: use walls");
-  if (free_cell_ && !walls_.empty())
-    throw InputError("scene", 0, "stage", "", "a cell with walls in it must not move");
+  if (free_cell_ && !walls_.empty()) throw InputError("scene", 0, "stage", "", "a cell with walls in it must not move");
   choose_kernels();
   load_bodies(state);
   load_springs(state);
@@ -67,8 +66,7 @@ void SphereEngine::load_springs(const State<Spheres>& state) {
       bodies_.near_walls.push_back({s.body, s.wall, s.tangential_force});
     return lists_.restore(bodies_, state.memory.lists, state.memory.pairs);
   }
-  for (const WallLink& l : state.packing.wall_links)
-    bodies_.near_walls.push_back({l.body, l.wall, l.tangential_force});
+  for (const WallLink& l : state.packing.wall_links) bodies_.near_walls.push_back({l.body, l.wall, l.tangential_force});
   std::vector<PairMemory<SphereHistory, 3>> springs;
   for (const Link<3>& l : state.packing.links)
     if (is_contact(l.kind)) {
@@ -100,8 +98,8 @@ void SphereEngine::find_near_walls() {
         const double gap = wall_frame(walls_[w], bodies_.position(k)).distance - bodies_.radius(k);
         if (gap > lists_.inner_skin()) continue;
         const NearWall found{static_cast<std::int32_t>(k), static_cast<std::int32_t>(w), {}};
-        while (next < known.size() && (known[next].body < found.body ||
-                                       (known[next].body == found.body && known[next].wall < found.wall)))
+        while (next < known.size() &&
+               (known[next].body < found.body || (known[next].body == found.body && known[next].wall < found.wall)))
           ++next;
         near.push_back(found);
         if (next < known.size() && known[next].body == found.body && known[next].wall == found.wall)

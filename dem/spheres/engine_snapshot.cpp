@@ -60,8 +60,7 @@ void SphereEngine::snapshot_walls(State<Spheres>& s) const {
     const auto k = static_cast<std::size_t>(near.body);
     const WallFrame frame = wall_frame(walls_[static_cast<std::size_t>(near.wall)], bodies_.position(k));
     const double gap = frame.distance - bodies_.radius(k);
-    if (near.tangential_force != Vec3{})
-      s.memory.wall_springs.push_back({near.body, near.wall, near.tangential_force});
+    if (near.tangential_force != Vec3{}) s.memory.wall_springs.push_back({near.body, near.wall, near.tangential_force});
     if (!(gap < 0)) continue;
     const ContactStiffness c = wall_stiffness(law_, bodies_.radius(k));
     s.packing.wall_links.push_back({near.body, near.wall, wall_kind_of(law_, c, gap, near.tangential_force), gap,

@@ -31,8 +31,8 @@ struct SphereMotionNeeds {
 };
 // prediction [dt]: how far p is ahead of u. gravity [a/T0^2]: the loads of the next forces begin with the weights,
 // along -z.
-using SphereMotionKernel = SphereMotionTally (*)(SphereStore&, std::size_t begin, std::size_t end,
-                                                 const MotionStep<3>&, double prediction, double gravity);
+using SphereMotionKernel = SphereMotionTally (*)(SphereStore&, std::size_t begin, std::size_t end, const MotionStep<3>&,
+                                                 double prediction, double gravity);
 SphereMotionKernel select_motion(SphereMotionNeeds needs);
 
 }  // namespace isostat

@@ -77,8 +77,8 @@ class SpherePairs {
     const auto columns = [](std::array<AlignedVector<double>, 3>& c) {
       return std::array<double*, 3>{c[0].data(), c[1].data(), c[2].data()};
     };
-    return {i,  j, shift, radius_sum_.data(), stiffness_.data(), damping_.data(), columns(tangential_),
-            columns(moment_)};
+    return {
+        i, j, shift, radius_sum_.data(), stiffness_.data(), damping_.data(), columns(tangential_), columns(moment_)};
   }
 
  private:

@@ -131,8 +131,9 @@ int main(int count, char** words) {
     else
       o.files.push_back(word);
   }
-  std::printf("packing,law,isa,grains,threads,mega_grain_steps_per_cpu_s,pairs_per_grain,motion_ns,neighbours_ns,"
-              "forces_ns,stress_ns,inner_rebuilds,outer_rebuilds\n");
+  std::printf(
+      "packing,law,isa,grains,threads,mega_grain_steps_per_cpu_s,pairs_per_grain,motion_ns,neighbours_ns,"
+      "forces_ns,stress_ns,inner_rebuilds,outer_rebuilds\n");
   for (const std::string& file : o.files) {
     State<Spheres> s = begun(tiled(read_grains(file), o.copies), o);
     Solver settle(s, CellControl<3>{}, {});

@@ -22,7 +22,7 @@ std::size_t add_sphere(SpherePacking& packing, double radius, const Vec3& positi
 
 struct RandomSpheres {
   int count = 60;
-  double room = 1.0;            // [a^3] of the cell for a sphere: .5 is dense
+  double room = 1.0;  // [a^3] of the cell for a sphere: .5 is dense
   double radius_min = 0.25, radius_max = 0.5;
   double speed = 1, spin = 2;  // [a/T0], [1/T0] scale of the velocities
   double time_step = 1e-3;

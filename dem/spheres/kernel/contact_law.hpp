@@ -32,8 +32,7 @@ struct Catalogue {
   static constexpr std::array<LawComposition, sizeof...(Law)> compositions{Law::composition...};
 };
 template <class... A>
-using WithEveryNormal =
-    Catalogue<ContactLaw<law::NormalHertz, A>..., ContactLaw<law::NormalLinear, A>...>;
+using WithEveryNormal = Catalogue<ContactLaw<law::NormalHertz, A>..., ContactLaw<law::NormalLinear, A>...>;
 
 using namespace law;
 using Supported = WithEveryNormal<                                                 //

@@ -29,7 +29,9 @@ std::string supported_compositions() {
 
 PairForceKernel select_kernel(const SphereLaw& p, Tally tally, Isa isa) {
   const LawComposition wanted = composition(p);
-  const KernelTable& table = isa == Isa::avx512 ? avx512_kernels() : isa == Isa::avx2 ? avx2_kernels() : scalar_kernels();
+  const KernelTable& table = isa == Isa::avx512 ? avx512_kernels()
+                             : isa == Isa::avx2 ? avx2_kernels()
+                                                : scalar_kernels();
   for (std::size_t k = 0; k < table.size(); ++k)
     if (Supported::compositions[k] == wanted) return table[k][static_cast<std::size_t>(tally)];
   throw InputError("scene", 0, "law", words(wanted), "not among the supported laws:\n" + supported_compositions());

@@ -37,8 +37,8 @@ ISOSTAT_INLINE T* row_at(T* first, RowOffset o) {
 }
 
 template <class V>
-struct PairDifference {                   // j minus i
-  Real3<V> r, velocity, half_velocity;    // of the predicted and the half-step velocity
+struct PairDifference {                    // j minus i
+  Real3<V> r, velocity, half_velocity;     // of the predicted and the half-step velocity
   Real3<V> half_surface_sum, surface_sum;  // R_i w_i + R_j w_j
 };
 

@@ -74,9 +74,14 @@ ISOSTAT_INLINE Native look_up(const double* table, const std::uint8_t* codes, Na
 ISOSTAT_INLINE void add_loads(double* loads, const RowOffset* i, const RowOffset* j, const Real3<Native>& f,
                               const Real3<Native>& a) {
   const __m512d zero = _mm512_setzero_pd();
-  const __m512d columns[8] = {static_cast<__m512d>(f[0]), static_cast<__m512d>(f[1]), static_cast<__m512d>(f[2]),
-                              static_cast<__m512d>(a[0]), static_cast<__m512d>(a[1]), static_cast<__m512d>(a[2]),
-                              zero, zero};
+  const __m512d columns[8] = {static_cast<__m512d>(f[0]),
+                              static_cast<__m512d>(f[1]),
+                              static_cast<__m512d>(f[2]),
+                              static_cast<__m512d>(a[0]),
+                              static_cast<__m512d>(a[1]),
+                              static_cast<__m512d>(a[2]),
+                              zero,
+                              zero};
   const EightColumns row = transposed(columns);
   const __m512d sign = _mm512_setr_pd(-1, -1, -1, 1, 1, 1, 1, 1);
   for (int k = 0; k < 8; ++k) {
@@ -97,8 +102,8 @@ ISOSTAT_INLINE void add_triples(double* loads, const RowOffset* i, const RowOffs
   const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13), high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
   const __m512d p04 = _mm512_permutex2var_pd(xy_lo, low, z_lo), p26 = _mm512_permutex2var_pd(xy_lo, high, z_lo);
   const __m512d p15 = _mm512_permutex2var_pd(xy_hi, low, z_hi), p37 = _mm512_permutex2var_pd(xy_hi, high, z_hi);
-  const __m256d rows[8] = {_mm512_castpd512_pd256(p04),      _mm512_castpd512_pd256(p15),
-                           _mm512_castpd512_pd256(p26),      _mm512_castpd512_pd256(p37),
+  const __m256d rows[8] = {_mm512_castpd512_pd256(p04),    _mm512_castpd512_pd256(p15),
+                           _mm512_castpd512_pd256(p26),    _mm512_castpd512_pd256(p37),
                            _mm512_extractf64x4_pd(p04, 1), _mm512_extractf64x4_pd(p15, 1),
                            _mm512_extractf64x4_pd(p26, 1), _mm512_extractf64x4_pd(p37, 1)};
   for (int k = 0; k < 8; ++k) {

@@ -2,8 +2,8 @@
 //
 // A law is a stateless type, evaluated for one pair or for a batch of pairs (Real is double-like or a SIMD vector).
 // What an axis says to the others is named: `repulsion` is the reference of the Coulomb and rolling limits, `root` the
-// factor by which the stiffnesses of a pair grow with its overlap, `damping_root` its square root (critical damping goes
-// with the root of the stiffness).
+// factor by which the stiffnesses of a pair grow with its overlap, `damping_root` its square root (critical damping
+// goes with the root of the stiffness).
 #pragma once
 #include <string_view>
 

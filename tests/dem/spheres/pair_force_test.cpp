@@ -41,7 +41,9 @@ struct Fixture {
   Fixture(const SphereLaw& law, bool images, bool flows, std::uint64_t seed) : columns(law) {
     Random random(seed);
     const auto between = [&](double a, double b) { return a + (b - a) * random.uniform(); };
-    const auto vector = [&](double size) { return Vec3{{between(-size, size), between(-size, size), between(-size, size)}}; };
+    const auto vector = [&](double size) {
+      return Vec3{{between(-size, size), between(-size, size), between(-size, size)}};
+    };
     bodies.resize(2 * kPairs);
     columns.resize(kListed);
     i.assign(kListed, offset(2 * kPairs)), j.assign(kListed, offset(2 * kPairs + 1));
@@ -85,7 +87,8 @@ struct Fixture {
       p.mass_i = bodies.constants[a].mass, p.mass_j = bodies.constants[b].mass;
       p.half_velocity = bodies.half_velocity(b) - bodies.half_velocity(a);
       p.velocity = triple_at(bodies.row(b) + Slot::velocity) - triple_at(bodies.row(a) + Slot::velocity);
-      for (int c = 0; c < 3; ++c) p.half_velocity[c] += in.flow_half[c] * p.r[c], p.velocity[c] += in.flow_now[c] * p.r[c];
+      for (int c = 0; c < 3; ++c)
+        p.half_velocity[c] += in.flow_half[c] * p.r[c], p.velocity[c] += in.flow_now[c] * p.r[c];
       p.half_spin_i = bodies.half_spin(a), p.half_spin_j = bodies.half_spin(b);
       p.spin_i = (1 / p.radius_i) * triple_at(bodies.row(a) + Slot::surface);
       p.spin_j = (1 / p.radius_j) * triple_at(bodies.row(b) + Slot::surface);
@@ -131,8 +134,8 @@ void compare(const SphereLaw& law, Isa isa, Tally tally, bool images) {
     for (int a = 0; a < 3; ++a) virial[a] += response.force[a] * f.pairs[k].r[a];
     largest = std::max(largest, norm(response.force)), largest_moment = std::max(largest_moment, norm(response.moment));
     if (response.gap < 0 && law.friction > 0) {
-      const double limit = law.friction * repulsion(law, pair_stiffness(law, f.pairs[k].radius_i, f.pairs[k].radius_j),
-                                                    response.gap);
+      const double limit =
+          law.friction * repulsion(law, pair_stiffness(law, f.pairs[k].radius_i, f.pairs[k].radius_j), response.gap);
       (norm(response.tangential) > limit * (1 - 1e-9) ? sliding : sticking) += 1;
     }
     expected.push_back(response);
