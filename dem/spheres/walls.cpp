@@ -47,14 +47,14 @@ WallLoad wall_load(const SphereLaw& law, const SphereWall& wall, const SphereCon
   if (!(law.wall_friction > 0)) return load;
 
   const Vec3 half = motion.half_velocity - wall.velocity;
-  const double limit = law.wall_friction * elastic, receded = time_step * dot(n, half);
-  const double gap_before = std::min(gap - receded, 0.0);
-  if (wall.shape == WallShape::shell)
-    spring = carried(spring, frame, wall_frame(wall, position - time_step * half));
-  else
-    spring = without(spring, n);
+  const double limit = law.wall_friction * elastic;
+  const WallFrame before = wall_frame(wall, position - time_step * half);
+  const double gap_before = before.distance - sphere.radius;
+  spring = carried(spring, frame, before);
   if (law.normal == NormalForce::hertz && gap_before < gap) spring = std::sqrt(gap / gap_before) * spring;
-  const Vec3 slip = without(half, n) - arm * cross(motion.half_surface, n);
+  // The lever arm of the middle of the step (kernel/pair_force_impl.hpp).
+  const WallFrame middle = wall_frame(wall, position - 0.5 * time_step * half);
+  const Vec3 slip = without(half - (middle.distance / sphere.radius) * cross(motion.half_surface, middle.n), n);
   spring -= tangential_stiffness(law, c, gap) * time_step * slip;
   shorten(spring, limit);
   const Vec3 slide = without(motion.velocity - wall.velocity, n) - arm * cross(motion.surface, n);

@@ -56,24 +56,26 @@ SpherePairResponse pair_response(const SphereLaw& law, const SpherePairMoment& p
   if (law.friction > 0 && contact) {
     Vec3 t = p.tangential - (dot(p.tangential, n) / (1 + dot(n, n_old))) * (n + n_old);
     t = turned(t, twist * n);
-    const double receded = dot(n, dr), overlap_before = -gap + receded;
-    if (hertz && receded > 0) t = (kt / tangential_stiffness(overlap_before)) * t;
-    const auto contact_velocity = [&](const Vec3& v, const Vec3& wi, const Vec3& wj) {
-      const Vec3 c = v - cross(li * wi + lj * wj, n);
+    const double overlap_before = sum - norm(old);
+    if (hertz && overlap_before > -gap) t = (kt / tangential_stiffness(overlap_before)) * t;
+    // With the lever arms of the branch vector b.
+    const auto contact_velocity = [&](const Vec3& v, const Vec3& wi, const Vec3& wj, const Vec3& b) {
+      const Vec3 c = v - (1 / sum) * cross(p.radius_i * wi + p.radius_j * wj, b);
       return c - dot(c, n) * n;
     };
     const double limit = law.friction * elastic;
-    t = capped(t - (kt * dt) * contact_velocity(p.half_velocity, p.half_spin_i, p.half_spin_j), limit);
+    t = capped(t - (kt * dt) * contact_velocity(p.half_velocity, p.half_spin_i, p.half_spin_j, p.r - 0.5 * dr), limit);
     out.tangential = t;
-    const Vec3 dashpot = (law.tangential_damping * eta) * contact_velocity(p.velocity, p.spin_i, p.spin_j);
+    const Vec3 dashpot = (law.tangential_damping * eta) * contact_velocity(p.velocity, p.spin_i, p.spin_j, p.r);
     const Vec3 total = capped(t - dashpot, limit);
     out.force += total;
     out.moment_i -= li * cross(n, total), out.moment_j -= lj * cross(n, total);
   }
   if (law.rolling_friction > 0 && contact) {
-    // n x n_dot dt to the order of the tangent of the angle, and the twist, as one rotation vector.
-    const Vec3 angle = cross(n, (1 / dot(n, old)) * (dr - dot(n, dr) * n)) + twist * n;
-    Vec3 m = turned(p.moment, angle);
+    const Vec3 axis = cross(n_old, n);  // of length sin(angle)
+    const double sine = norm(axis);
+    Vec3 m = sine > 0 ? turned(p.moment, (std::atan2(sine, dot(n_old, n)) / sine) * axis) : p.moment;
+    m = turned(m, twist * n);
     m = capped(m - (law.rolling_stiffness * dt) * (p.half_spin_j - p.half_spin_i), law.rolling_friction * elastic);
     out.moment = m;
     out.moment_i -= m, out.moment_j += m;

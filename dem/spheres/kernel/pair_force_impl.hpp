@@ -47,12 +47,23 @@ ISOSTAT_INLINE Real3<V> without_lever(const Real3<V>& v, const PairFrame3<V>& f,
           mul_add<V>(-f.lever_ratio, turn[2], v[2])};
 }
 
+// Velocity of slip over a step, with the lever arms of its middle: a rigid rotation slips nowhere. With those of its
+// end it would, by half a step times the product of the spins along and across n, always to the same side.
+template <class V>
+ISOSTAT_INLINE Real3<V> slip_rate(const PairDifference<V>& d, const Real3<V>& n, V half_step, V per_radius) {
+  Real3<V> middle, slip;
+  for (std::size_t a = 0; a < 3; ++a) middle[a] = mul_add<V>(-half_step, d.half_velocity[a], d.r[a]);
+  const Real3<V> turn = cross_3d<V>(d.half_surface_sum, middle);
+  for (std::size_t a = 0; a < 3; ++a) slip[a] = mul_add<V>(-per_radius, turn[a], d.half_velocity[a]);
+  return without_normal<V>(slip, n, dot_3d<V>(slip, n));
+}
+
 template <class V, class Law, bool kStress, bool kImages>
 PairForceTally pair_forces(const PairForceInput& input) {
   const PairForceInput in = input;  // a copy that no store can alias: its fields stay in registers
   const SphereLaw& law = in.law;
   constexpr bool kTurns = Law::Friction::acts || Law::Rolling::acts;
-  const V dt(in.time_step), zero(0.0), one(1.0);
+  const V dt(in.time_step), half_step(0.5 * in.time_step), zero(0.0), one(1.0);
   Real3<V> virial{zero, zero, zero};
 
   // The loads of a batch are added while the next one is under way (dem/disks/kernel/pair_force_impl.hpp).
@@ -96,28 +107,31 @@ PairForceTally pair_forces(const PairForceInput& input) {
     if constexpr (kTurns) {
       const V q = one / (f.distance * radius_sum), inverse = q * radius_sum, per_radius = q * f.distance;
       const V normal_rate = dot_3d<V>(f.n, d.half_velocity), receded = normal_rate * dt;
-      const Real3<V> drift = without_normal<V>(d.half_velocity, f.n, normal_rate);
-      const ContactTurn<V> turn = contact_turn<V>(inverse, receded, {drift[0] * dt, drift[1] * dt, drift[2] * dt},
-                                                  dot_3d<V>(f.n, d.half_surface_sum) * per_radius * dt);
+      Real3<V> slide = without_normal<V>(d.half_velocity, f.n, normal_rate);
+      for (V& s : slide) s = s * dt;
+      const ContactTurn<V> turn =
+          contact_turn<V>(inverse, receded, slide, dot_3d<V>(f.n, d.half_surface_sum) * per_radius * dt);
       if constexpr (Law::Friction::acts) {
         const V limit = V(law.friction) * elastic.repulsion;
         Real3<V> tangential = carried_tangential<V>(load<V>(in.pairs.tangential, k), f.n, turn);
         V softened(0.0), spring = select(contact, V(law.tangential_stiffness), zero);
         if constexpr (Law::Normal::stiffens) {
-          softened = sqrt(overlap / max(overlap + max(receded, zero), V(kNoOverlap)));
+          // |r| - |r_old|: a chord of a rotation is no change of the distance
+          const V lengthened = mul_add<V>(V(-0.5) * inverse, dot_3d<V>(slide, slide), receded);
+          softened = sqrt(overlap / max(overlap + max(lengthened, zero), V(kNoOverlap)));
           spring = V(in.tangential_ratio) * stiffness * elastic.root;
         } else {
           softened = select(contact, one, zero);
         }
-        const Real3<V> slip = without_lever<V>(drift, f, d.half_surface_sum);
+        const Real3<V> slip = slip_rate<V>(d, f.n, half_step, per_radius);
         for (std::size_t a = 0; a < 3; ++a)
           tangential[a] = mul_add<V>(-(spring * dt), slip[a], softened * tangential[a]);
         shorten<V>(tangential, limit);
         store<V>(in.pairs.tangential, k, tangential);
         if constexpr (Law::Damping::acts) {
-          const Real3<V> slide = without_lever<V>(without_normal<V>(d.velocity, f.n, receding), f, d.surface_sum);
+          const Real3<V> sliding = without_lever<V>(without_normal<V>(d.velocity, f.n, receding), f, d.surface_sum);
           const V dashpot = V(law.tangential_damping) * damping;
-          for (std::size_t a = 0; a < 3; ++a) tangential[a] = mul_add<V>(-dashpot, slide[a], tangential[a]);
+          for (std::size_t a = 0; a < 3; ++a) tangential[a] = mul_add<V>(-dashpot, sliding[a], tangential[a]);
           shorten<V>(tangential, limit);
         }
         const Real3<V> across = cross_3d<V>(f.n, tangential);

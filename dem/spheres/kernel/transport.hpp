@@ -38,11 +38,13 @@ ISOSTAT_INLINE Real3<V> carried_tangential(const Real3<V>& t, const Real3<V>& n,
   return out;
 }
 
-// A moment has a part along n, too: it turns by the vector n x q + s dt n.
+// A moment has a part along n, too. Both turns one after the other are one by  n x q + s dt (n - q/2), to the third
+// order.
 template <class V>
 ISOSTAT_INLINE Real3<V> carried_moment(const Real3<V>& m, const Real3<V>& n, const ContactTurn<V>& turn) {
   Real3<V> angle = cross_3d<V>(n, turn.tilt);
-  for (std::size_t k = 0; k < 3; ++k) angle[k] = mul_add<V>(turn.twist, n[k], angle[k]);
+  for (std::size_t k = 0; k < 3; ++k)
+    angle[k] = mul_add<V>(turn.twist, mul_add<V>(V(-0.5), turn.tilt[k], n[k]), angle[k]);
   const V a2 = dot_3d<V>(angle, angle);
   const V sine = mul_add<V>(a2, V(-1.0 / 6), V(1.0)), versine = mul_add<V>(a2, V(-1.0 / 24), V(0.5));
   const Real3<V> once = cross_3d<V>(angle, m), twice = cross_3d<V>(angle, once);

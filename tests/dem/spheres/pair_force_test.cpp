@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t kPairs = 237, kListed = 240;  // a multiple of the batch with three padding pairs
 static_assert(kListed % kPairBatch == 0);
-constexpr double kRounding = 2e-12;  // of the largest force; turns are left out at the third order of the step
+constexpr double kRounding = 4e-12;  // of the largest force; turns are left out at the third order of the step
 constexpr double kStep = 2e-5;
 
 RowOffset offset(std::size_t body) { return static_cast<RowOffset>(body * kRowWidth); }
@@ -75,7 +75,7 @@ struct Fixture {
       n = (1 / norm(n)) * n;
       double gap = -0.05 * random.uniform();
       if (k % 4 == 3) gap = 0.04 * random.uniform();
-      if (k % 7 == 6) gap = -5e-6 * random.uniform();  // formed in this step, or about to end
+      if (k % 7 == 6) gap = -(5 + 5 * random.uniform()) * 1e-6;  // formed in this step, or about to end
       const Vec3 r = (sum + gap) * n, image{{s[0] * length[0], s[1] * length[1], s[2] * length[2]}};
       bodies.place(b, bodies.position(a) + r - (images ? image : Vec3{}));
       columns.fill(k, bodies, a, b);
