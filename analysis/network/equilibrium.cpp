@@ -5,10 +5,12 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "analysis/network/force_scale.hpp"
 #include "analysis/network/sections.hpp"
 #include "analysis/network/triangle_sections.hpp"
 #include "dem/disks/at_rest.hpp"
 #include "dem/disks/certificate.hpp"
+#include "dem/state/balance_3d.hpp"
 #include "dem/state/link_ends.hpp"
 
 namespace isostat {
@@ -27,9 +29,24 @@ double law_residual(const State<Disks>& state, double scale) {
   return largest / scale;
 }
 
+// Without a law: loads only, in units of the mean |F|, and of that times the largest diameter.
+nlohmann::ordered_json equilibrium_of_spheres(const Packing<3>& packing, const ForceReading& reading) {
+  double force = 0, moment = 0, diameter = 0;
+  const std::vector<BodyLoad3> loads = net_loads(packing);
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    if (!is_free(packing.part, k)) continue;
+    force = std::max(force, norm(loads[k].force)), moment = std::max(moment, norm(loads[k].moment));
+    diameter = std::max(diameter, 2 * packing.bodies.radius[k]);
+  }
+  return {{"max_force", force / reading.scale},
+          {"max_moment", moment / (reading.scale * diameter)},
+          {"force_scale", reading.scale}};
+}
+
 }  // namespace
 
 nlohmann::ordered_json equilibrium_section(const AnalysisInput& input, const AnalysisOptions&) {
+  if (input.packing_3d) return equilibrium_of_spheres(*input.packing_3d, read_forces(input));
   if (input.triangles) return triangle_equilibrium(*input.triangles);
   const State<Disks>& state = input.state;
   const Certificate c = evaluate_certificate(state);
