@@ -103,7 +103,7 @@ class NeighbourLists {
   static constexpr int kPhases = 4;
   static int chunk_count(std::size_t bodies);
   int chunks() const { return chunks_; }
-  std::size_t chunk_begin(int chunk) const;  // first body of the chunk
+  std::size_t chunk_begin(int chunk) const;                                      // first body of the chunk
   const std::vector<Vec<D>>& inner_position() const { return inner_position_; }  // [a] when the inner list was made
   const Cell& inner_cell() const { return inner_cell_; }
   std::size_t inner_pairs() const { return i_.size(); }
@@ -133,6 +133,8 @@ class NeighbourLists {
   void find_outer(const Bodies& bodies);
   void filter_inner(const Bodies& bodies, const std::vector<Pair>& histories);
   std::vector<Pair> histories() const;
+  void find_outer_by_size(const Bodies& bodies);
+  bool broad() const;
   CellGrid<D> grid_for(const std::vector<Vec<D>>& position, double cutoff) const;
   double outer_skin_for(const Cell& cell) const;
   double inner_skin_for(double pair_displacement) const;
