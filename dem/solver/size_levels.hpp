@@ -1,7 +1,7 @@
 // Near pairs among bodies of very different sizes. Each factor of two in diameter has a grid of its own, as wide as its
-// bodies reach. A body looks for partners of its own level and of the coarser ones, in the few cells that its reach
-// touches: the smaller body finds the larger, never the other way round, so that a large body meets its many small
-// neighbours one by one and no cell holds more than a few bodies of its level.
+// bodies reach. Between two levels either every body of the finer looks for partners in the coarser grid, in the few
+// cells that its reach touches, or, where the larger bodies are few, they look in the finer grid, whose cells are read
+// in rows: the inside of a large body is empty and costs nothing. What is cheaper follows from the numbers of bodies.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -32,14 +32,24 @@ class SizeLevels {
     const Frame<D> frame = frame_of(cell, position);
     levels_.reserve(kMostLevels);
     for (const std::vector<std::int32_t>& of_level : bodies) levels_.emplace_back(frame, of_level, *this);
+    for (std::size_t from = 0; from < kMostLevels; ++from)
+      for (std::size_t in = 0; in < kMostLevels; ++in)
+        searches_[from][in] = from >= in ? cost(from, in) <= cost(in, from) : cost(from, in) < cost(in, from);
   }
 
-  // visit(i, j, s): body j, moved by s cells, is near body i. Each pair of bodies and image once, from the body of the
-  // finer level; within a level i < j.
+  // visit(i, j, s): body j, moved by s cells, is near body i. Each pair of bodies and image once.
   template <class Visit>
   void for_each_pair(Visit&& visit) const {
-    for (std::size_t i = 0; i < position_.size(); ++i)
-      for (int l = 0; l <= level_[i]; ++l) levels_[static_cast<std::size_t>(l)].search(i, l == level_[i], *this, visit);
+    for (std::size_t i = 0; i < position_.size(); ++i) {
+      const auto from = static_cast<std::size_t>(level_[i]);
+      for (std::size_t l = 0; l < kMostLevels; ++l)
+        if (searches_[from][l] && !levels_[l].members.empty()) {
+          if (l == from)
+            levels_[l].template search<true>(i, *this, visit);
+          else
+            levels_[l].template search<false>(i, *this, visit);
+        }
+    }
   }
 
  private:
@@ -80,72 +90,93 @@ class SizeLevels {
       return 2 * largest + all.beyond_;
     }
 
-    // The cells of this grid that the reach of body i touches: a range of columns along each axis, counted on beyond
-    // the edges of the cell.
-    template <class Visit>
-    void search(std::size_t i, bool own_level, const SizeLevels& all, Visit& visit) const {
-      if (members.empty()) return;
-      const Vec<D>& ri = all.position_[i];
-      const double reach = (all.radius_[i] + largest_radius + all.beyond_) * kRounding;
-      std::array<int, D> low, high;
-      for (int a = 0; a < D; ++a) {
-        const auto u = static_cast<std::size_t>(a);
-        low[u] = static_cast<int>(std::floor(grid.coordinate(ri[a] - reach, a)));
-        high[u] = static_cast<int>(std::floor(grid.coordinate(ri[a] + reach, a)));
-        const int n = grid.count(a);
-        if (!all.cell_)
-          low[u] = std::clamp(low[u], 0, n - 1), high[u] = std::clamp(high[u], 0, n - 1);
-        else
-          low[u] = std::max(low[u], -n), high[u] = std::min(high[u], 2 * n - 1);
-      }
-      rows<D - 1>(i, own_level, all, visit, low, high, 0, {}, {});
+    // Rows of cells that a body of this radius touches, about.
+    double rows_for(double radius, double beyond) const {
+      double rows = 1;
+      for (int a = 1; a < D; ++a)
+        rows *= 1 + std::min(2 * (radius + largest_radius + beyond) / grid.width(a), 1.0 * grid.count(a));
+      return rows;
     }
 
-    // Axes from the last to the first; the cells of a row along the first axis lie side by side but for its edges.
-    template <int kAxis, class Visit>
-    void rows(std::size_t i, bool own_level, const SizeLevels& all, Visit& visit, const std::array<int, D>& low,
-              const std::array<int, D>& high, std::size_t index, const Vec<D>& offset, ImageShift<D> shift) const {
+    // The cells of this grid that the reach of body i touches: a range of columns along each axis, counted on beyond
+    // the edges of the cell. Of its own level a body sees the half of the cells that come after its own, and of its own
+    // cell the bodies that come after it: so each pair is seen once.
+    template <bool kOwn, class Visit>
+    void search(std::size_t i, const SizeLevels& all, Visit& visit) const {
+      const Vec<D>& ri = all.position_[i];
+      const double reach = (all.radius_[i] + largest_radius + all.beyond_) * kRounding;
+      Box box;
+      for (int a = 0; a < D; ++a) {
+        const auto u = static_cast<std::size_t>(a);
+        const int n = grid.count(a);
+        const auto whole = [n](double x) { return static_cast<int>(std::clamp(x, -1.0 * n, 2.0 * n - 1) + n) - n; };
+        box.low[u] = whole(grid.coordinate(ri[a] - reach, a)), box.high[u] = whole(grid.coordinate(ri[a] + reach, a));
+        if (!all.cell_) box.low[u] = std::max(box.low[u], 0), box.high[u] = std::min(box.high[u], n - 1);
+        if constexpr (kOwn) box.own[u] = grid.column(ri[a], a);
+      }
+      rows<D - 1, kOwn>(i, all, visit, box, 0, {}, {}, kOwn);
+    }
+
+    struct Box {
+      std::array<int, D> low, high, own;
+    };
+
+    // Axes from the last to the first. `level_with`: so far the columns are those of the body's own cell.
+    template <int kAxis, bool kOwn, class Visit>
+    void rows(std::size_t i, const SizeLevels& all, Visit& visit, const Box& box, std::size_t index,
+              const Vec<D>& offset, ImageShift<D> shift, bool level_with) const {
       const int n = grid.count(kAxis);
-      const auto u = static_cast<std::size_t>(kAxis);
+      constexpr auto u = static_cast<std::size_t>(kAxis);
+      const int low = kOwn && level_with ? box.own[u] : box.low[u];
       if constexpr (kAxis > 0) {
-        for (int c = low[u]; c <= high[u]; ++c) {
+        for (int c = low; c <= box.high[u]; ++c) {
           const int s = c < 0 ? -1 : c >= n ? 1 : 0;
           shift[u] = s;
           Vec<D> moved = offset;
           if (s != 0) moved[kAxis] = s * all.cell_->length[kAxis];
-          rows<kAxis - 1>(
-              i, own_level, all, visit, low, high,
+          rows<kAxis - 1, kOwn>(
+              i, all, visit, box,
               (index + static_cast<std::size_t>(c - s * n)) * static_cast<std::size_t>(grid.count(kAxis - 1)), moved,
-              shift);
+              shift, level_with && c == box.own[u]);
         }
       } else {
-        for (int s = -1; s <= 1; ++s) {
-          const int first = std::max(low[u], s * n), last = std::min(high[u], s * n + n - 1);
+        for (int s = low < 0 ? -1 : 0; s * n <= box.high[u]; ++s) {
+          const int first = std::max(low, s * n), last = std::min(box.high[u], s * n + n - 1);
           if (first > last) continue;
           shift[u] = s;
           Vec<D> moved = offset;
           if (s != 0) moved[kAxis] = s * all.cell_->length[kAxis];
-          scan(begin[index + static_cast<std::size_t>(first - s * n)],
-               begin[index + static_cast<std::size_t>(last - s * n) + 1], i, own_level, all, visit, moved, shift);
+          const auto from = static_cast<std::size_t>(begin[index + static_cast<std::size_t>(first - s * n)]);
+          const auto to = static_cast<std::size_t>(begin[index + static_cast<std::size_t>(last - s * n) + 1]);
+          // The first cell of this run is the body's own.
+          const bool own = kOwn && level_with && s == 0;
+          scan(from, to, i, own ? static_cast<std::size_t>(begin[index + static_cast<std::size_t>(first) + 1]) : from,
+               all, visit, moved, shift);
         }
       }
     }
 
+    // Up to `own` only bodies of a higher index.
     template <class Visit>
-    void scan(std::int32_t from, std::int32_t to, std::size_t i, bool own_level, const SizeLevels& all, Visit& visit,
+    void scan(std::size_t from, std::size_t to, std::size_t i, std::size_t own, const SizeLevels& all, Visit& visit,
               const Vec<D>& offset, const ImageShift<D>& shift) const {
       const Vec<D> from_j = all.position_[i] - offset;
       const double reach_i = all.radius_[i] + all.beyond_;
-      for (std::int32_t m = from; m < to; ++m) {
-        const Member& j = members[static_cast<std::size_t>(m)];
+      for (std::size_t m = from; m < to; ++m) {
+        const Member& j = members[m];
         const Vec<D> d = j.position - from_j;
         const double reach = reach_i + j.radius;
-        if (dot(d, d) > reach * reach) continue;
-        if (own_level && j.body <= static_cast<std::int32_t>(i)) continue;
+        if (dot(d, d) > reach * reach || (m < own && j.body <= static_cast<std::int32_t>(i))) continue;
         visit(static_cast<std::int32_t>(i), j.body, shift);
       }
     }
   };
+
+  // Of all bodies of one level in the grid of another.
+  double cost(std::size_t from, std::size_t in) const {
+    return static_cast<double>(levels_[from].members.size()) *
+           levels_[in].rows_for(levels_[from].largest_radius, beyond_);
+  }
 
   const std::optional<PeriodicCell<D>>& cell_;
   const std::vector<Vec<D>>& position_;
@@ -153,6 +184,7 @@ class SizeLevels {
   double beyond_;
   std::vector<int> level_;
   std::vector<Level> levels_;
+  std::array<std::array<bool, kMostLevels>, kMostLevels> searches_{};  // bodies of the first in the grid of the second
 };
 
 }  // namespace isostat
