@@ -7,6 +7,7 @@
 #include <string>
 
 #include "dem/solver/neighbours.hpp"
+#include "dem/solver/size_levels.hpp"
 
 namespace isostat {
 namespace lists {
@@ -17,6 +18,9 @@ inline constexpr double kInnerSteps = 100;          // steps that the inner skin
 inline constexpr double kSmallestInnerSkin = 5e-4;  // [smallest diameter]
 inline constexpr double kLargestInnerSkin = 0.3;    // [outer skin]
 inline constexpr std::size_t kBodiesPerChunk = 4096;
+// Beyond this ratio of sizes a grid as wide as the largest body holds too many of the smallest.
+inline constexpr double kBroad = 2.5;
+inline constexpr double kBroadOrder = 2;  // [mean diameter] width of the grid along which these are sorted
 
 struct Wrapped {
   int cell, shift;
@@ -153,7 +157,8 @@ void NeighbourLists<Columns>::sort_bodies(Bodies& bodies, const Cell& cell, std:
       std::swap(frame.origin[0], frame.origin[1]), std::swap(frame.length[0], frame.length[1]);
       for (Vec<D>& r : position) std::swap(r[0], r[1]);
     }
-  const GridMembers<D> members(grid_in(frame, largest_diameter_ + range_), position);
+  const double width = broad() ? std::min(lists::kBroadOrder * mean_diameter_, largest_diameter_) : largest_diameter_;
+  const GridMembers<D> members(grid_in(frame, width + range_), position);
   std::vector<std::int32_t> to(bodies_);
   for (std::size_t n = 0; n < bodies_; ++n)
     to[static_cast<std::size_t>(members.member[n])] = static_cast<std::int32_t>(n);
@@ -175,6 +180,42 @@ void NeighbourLists<Columns>::sort_bodies(Bodies& bodies, const Cell& cell, std:
 }
 
 template <class Columns>
+bool NeighbourLists<Columns>::broad() const {
+  return largest_diameter_ > lists::kBroad * smallest_diameter_;
+}
+
+// Pairs as the levels find them, sorted by their first body: i < j.
+template <class Columns>
+void NeighbourLists<Columns>::find_outer_by_size(const Bodies& bodies) {
+  struct Found {
+    std::int32_t i, j;
+    std::uint8_t shift;
+  };
+  std::vector<double> radius(bodies_);
+  for (std::size_t k = 0; k < bodies_; ++k) radius[k] = bodies.radius(k);
+  std::vector<Found> found;
+  found.reserve(4 * bodies_);
+  std::vector<std::uint32_t> begin(bodies_ + 1, 0);
+  const SizeLevels<D> levels(outer_cell_, outer_position_, radius, range_ + outer_skin_);
+  levels.for_each_pair([&](std::int32_t i, std::int32_t j, ImageShift<D> shift) {
+    if constexpr (requires { bodies.inert(0, 0); })
+      if (bodies.inert(static_cast<std::size_t>(i), static_cast<std::size_t>(j))) return;
+    if (i > j) {
+      std::swap(i, j);
+      for (int& s : shift) s = -s;
+    }
+    found.push_back({i, j, image_code(shift)});
+    ++begin[static_cast<std::size_t>(i) + 1];
+  });
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  outer_i_.resize(found.size()), outer_j_.resize(found.size()), outer_shift_.resize(found.size());
+  for (const Found& f : found) {
+    const std::size_t to = begin[static_cast<std::size_t>(f.i)]++;
+    outer_i_[to] = f.i, outer_j_[to] = f.j, outer_shift_[to] = f.shift;
+  }
+}
+
+template <class Columns>
 void NeighbourLists<Columns>::find_outer(const Bodies& bodies) {
   outer_travel_ = 0;
   outer_position_.resize(bodies_);
@@ -182,6 +223,7 @@ void NeighbourLists<Columns>::find_outer(const Bodies& bodies) {
   outer_i_.clear(), outer_j_.clear(), outer_shift_.clear();
 
   const CellGrid<D> grid = grid_in(frame_of(outer_cell_, outer_position_), largest_diameter_ + range_ + outer_skin_);
+  if (broad()) return find_outer_by_size(bodies);
   const GridMembers<D> members(grid, outer_position_);
   for (std::size_t i = 0; i < bodies_; ++i) {
     const Vec<D> ri = outer_position_[i];
