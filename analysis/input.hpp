@@ -9,6 +9,7 @@
 #include "analysis/link_network.hpp"
 #include "analysis/sphere_network.hpp"
 #include "dem/disks/disks.hpp"
+#include "dem/spheres/spheres.hpp"
 #include "dem/state/packing.hpp"
 
 namespace isostat {
@@ -33,8 +34,10 @@ struct AnalysisOptions {
 struct AnalysisInput {
   std::string path;
   State<Disks> state;  // a network or foreign packing is a state without law; walls last (put_free_first)
-  std::optional<Packing<3>> packing_3d;  // a 3D network or foreign packing; `state` then has no grains
-  bool links_given = false;              // the file lists contacts (a state always does); false: found by touching
+  std::optional<Packing<3>> packing_3d;  // a packing in space; `state` then has no grains
+  std::optional<State<Spheres>>
+      spheres_state;         // that it comes from: law and walls, its bodies and links are moved out. None: no law
+  bool links_given = false;  // the file lists contacts (a state always does); false: found by touching
   std::optional<State<TriangleGrains>> triangles;  // a packing of triangles; `state` then has no grains
   OwnedNetwork triangle_links;                     // of its triangles, see set_triangles()
 
@@ -46,7 +49,10 @@ struct AnalysisInput {
   LinkNetwork network() const { return triangles ? triangle_links.view() : LinkNetwork(state.packing); }
   // It knows its law. Disks: it comes from a run of the solver and is in reduced units; false for a foreign packing
   // kept as .h5. Triangles always do, a network that of triangle_network_law().
-  bool has_law() const { return triangles ? triangles->law.modulus > 0 : state.law.normal_stiffness > 0; }
+  bool has_law() const {
+    if (packing_3d) return spheres_state.has_value();
+    return triangles ? triangles->law.modulus > 0 : state.law.normal_stiffness > 0;
+  }
   bool has_cell() const { return packing_3d ? packing_3d->cell.has_value() : packing().cell.has_value(); }
   std::size_t grains() const {
     return packing_3d ? count_free(*packing_3d) : triangles ? triangles->packing.grains.size() : count_free(packing());

@@ -117,6 +117,7 @@ void set_undefined_to_null(nlohmann::ordered_json& value) {
 nlohmann::ordered_json units_of(const AnalysisInput& input) {
   if (input.triangles) return {{"system", "cgs"}, {"length", "cm"}, {"mass", "g"}, {"force", "dyn"}, {"time", "s"}};
   if (!input.has_law()) return {{"system", "of the input file"}};
+  if (input.packing_3d) return {{"system", "reduced"}, {"length", "a"}, {"mass", "m"}, {"force", "F0"}, {"time", "T0"}};
   const bool cohesive = input.state.law.attraction > 0, pressed = input.has_cell() || !(input.state.scene.gravity > 0);
   nlohmann::ordered_json units{{"system", "reduced"},
                                {"length", "a"},

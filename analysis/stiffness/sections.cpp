@@ -21,7 +21,27 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr int kReportedModes = 20, kTabulatedModes = 100;
 
+// Of a state of spheres each contact has its own: the means over contacts, and over distant links.
+Json mean_stiffness(const AnalysisInput& input) {
+  SphereStiffness sum;
+  double contacts = 0, gaps = 0, distant = 0;
+  const std::vector<SphereStiffness> all = by_link(*input.packing_3d, input.spheres_state->law);
+  for (std::size_t l = 0; l < all.size(); ++l) {
+    if (!is_contact(input.packing_3d->links[l].kind)) {
+      ++gaps, distant += all[l].normal;
+      continue;
+    }
+    ++contacts, sum.normal += all[l].normal, sum.tangential += all[l].tangential, sum.rolling += all[l].rolling;
+  }
+  const auto mean = [](double total, double n) { return n > 0 ? Json(total / n) : Json(nullptr); };
+  return {{"normal", mean(sum.normal, contacts)},
+          {"tangential", mean(sum.tangential, contacts)},
+          {"rolling", mean(sum.rolling, contacts)},
+          {"distant", mean(distant, gaps)}};
+}
+
 Json stiffness_of(const AnalysisInput& input, const AnalysisOptions& options) {
+  if (input.spheres_state) return mean_stiffness(input);
   if (input.packing_3d) {
     const UniformStiffness k = network_stiffness(*input.packing_3d, options.stiffness);
     return {{"normal", k.normal}, {"tangential", k.tangential}, {"rolling", k.rolling}, {"distant", k.distant}};
@@ -75,6 +95,7 @@ Json described(const SphereModuli& m) {
 }
 
 std::vector<SphereStiffness> sphere_stiffness(const AnalysisInput& input, const AnalysisOptions& options) {
+  if (input.spheres_state) return by_link(*input.packing_3d, input.spheres_state->law);
   return by_link(*input.packing_3d, network_stiffness(*input.packing_3d, options.stiffness));
 }
 

@@ -10,6 +10,7 @@
 #include "analysis/stiffness/stiffness_matrix.hpp"
 #include "analysis/vector_algebra.hpp"
 #include "dem/input_error.hpp"
+#include "dem/spheres/at_rest.hpp"
 #include "dem/state/link_ends.hpp"
 #include "geometry/base/index.hpp"
 
@@ -70,6 +71,17 @@ std::vector<SphereStiffness> by_link(const Packing<3>& packing, const UniformSti
       all.push_back({k.distant, 0, 0, link.normal_force});
     else
       all.push_back({k.normal, k.tangential, k.rolling, link.normal_force});
+  }
+  return all;
+}
+
+std::vector<SphereStiffness> by_link(const Packing<3>& packing, const SphereLaw& law) {
+  std::vector<SphereStiffness> all;
+  const std::vector<double>& radius = packing.bodies.radius;
+  for (const Link<3>& link : packing.links) {
+    const ContactStiffness c = pair_stiffness(law, radius[idx(link.i)], radius[idx(link.j)]);
+    all.push_back({at_rest(law, c, link.gap).stiffness, tangential_stiffness(law, c, link.gap),
+                   link.kind == LinkKind::distant ? 0.0 : law.rolling_stiffness, link.normal_force});
   }
   return all;
 }

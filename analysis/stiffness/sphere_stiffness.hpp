@@ -8,6 +8,7 @@
 #include "analysis/rigidity/rigidity_matrix.hpp"
 #include "analysis/stiffness/sparse_cholesky.hpp"
 #include "analysis/stiffness/vibration.hpp"
+#include "dem/spheres/sphere_law.hpp"
 
 namespace isostat {
 
@@ -26,6 +27,8 @@ struct UniformStiffness {
 // default, d the largest diameter, and -K_N/100 across a gap, the ratios of the default scene of disks.
 UniformStiffness network_stiffness(const Packing<3>& packing, const std::vector<double>& given);
 std::vector<SphereStiffness> by_link(const Packing<3>& packing, const UniformStiffness& stiffness);
+// Of a state: the tangents of its law at the gaps of the links.
+std::vector<SphereStiffness> by_link(const Packing<3>& packing, const SphereLaw& law);
 
 // Of rows in contact frames.
 std::vector<double> row_stiffness(const RigidityMatrix& in_frames, const std::vector<SphereStiffness>& stiffness);
