@@ -87,6 +87,7 @@ CellGrid<2> NeighbourLists<Columns>::grid_for(const std::vector<Vec2>& position,
 // In the order of size: the storage order, which changes in the run, must not show in the last bit after a restart.
 template <class Columns>
 void NeighbourLists<Columns>::measure(const Bodies& bodies) {
+  if (bodies_ == 0) return;
   std::vector<double> radii;
   for (std::size_t k = 0; k < bodies_; ++k) radii.push_back(bodies.radius(k));
   std::sort(radii.begin(), radii.end());
@@ -105,6 +106,7 @@ double NeighbourLists<Columns>::inner_skin_for(double pair_displacement) const {
 template <class Columns>
 void NeighbourLists<Columns>::build(Bodies& bodies, const Cell& cell, std::vector<Pair> histories) {
   measure(bodies);
+  if (bodies_ == 0) return;
   sort_bodies(bodies, cell, histories);
   outer_skin_ = outer_skin_for(cell);
   inner_skin_ = inner_skin_for(0);
@@ -115,6 +117,7 @@ void NeighbourLists<Columns>::build(Bodies& bodies, const Cell& cell, std::vecto
 
 template <class Columns>
 void NeighbourLists<Columns>::rebuild(Bodies& bodies, const Cell& cell, double pair_displacement) {
+  if (bodies_ == 0) return;
   if (!std::isfinite(inner_travel_)) throw ListFailure("a velocity is not a number");
   std::vector<Pair> kept = histories();
   inner_skin_ = inner_skin_for(pair_displacement);
@@ -322,6 +325,7 @@ template <class Columns>
 void NeighbourLists<Columns>::restore(const Bodies& bodies, const ListMemory& m, const std::vector<Pair>& pairs) {
   const auto cell = [](const Vec2& length) { return length == Vec2{} ? Cell{} : PeriodicCell<2>{length}; };
   measure(bodies);
+  if (bodies_ == 0) return;
   Bodies then = bodies;
   for (std::size_t k = 0; k < bodies_; ++k) then.place(k, m.outer_position[k]);
   outer_cell_ = cell(m.outer_length), outer_skin_ = m.outer_skin;

@@ -93,6 +93,7 @@ TYPED_TEST(EverySystem, LoadsItsBodiesByItsLinks) {
     std::fill(s.packing.bodies.velocity.begin(), s.packing.bodies.velocity.end(), Vec2{});
     std::fill(s.packing.bodies.spin.begin(), s.packing.bodies.spin.end(), 0.0);
     s.memory = {}, s.cell_motion.strain_rate = {};
+    s.progress.started = false;              // the container rests
     Solver<TypeParam> solver(s, v.control);  // evaluates the forces of the state as it stands
     solver.snapshot(s);
     const std::vector<BodyLoad> loads = Fixture<TypeParam>::loads(s);
