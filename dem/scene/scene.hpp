@@ -168,6 +168,15 @@ struct Scene {
   friend bool operator==(const Scene&, const Scene&) = default;
 };
 
+// Two grains collide in free space.
+inline bool is_collision(const Scene& s) {
+  const auto collide = [](const auto& grains) {
+    return grains.file.empty() && grains.arrangement == Arrangement::collision;
+  };
+  return (s.system == SceneSystem::disks && collide(s.grains)) ||
+         (s.system == SceneSystem::triangles && collide(s.triangle_grains));
+}
+
 // A scene of this system without keys, with so many stages without keys: the defaults of times and rates go with the
 // units of a system.
 Scene default_scene(SceneSystem system, std::size_t stages = 0);

@@ -92,6 +92,7 @@ auto NeighbourLists<Columns>::grid_in(const Frame<D>& frame, double cutoff) cons
 // In the order of size: the storage order, which changes in the run, must not show in the last bit after a restart.
 template <class Columns>
 void NeighbourLists<Columns>::measure(const Bodies& bodies) {
+  if (bodies_ == 0) return;
   std::vector<double> radii;
   for (std::size_t k = 0; k < bodies_; ++k) radii.push_back(bodies.radius(k));
   std::sort(radii.begin(), radii.end());
@@ -110,6 +111,7 @@ double NeighbourLists<Columns>::inner_skin_for(double pair_displacement) const {
 template <class Columns>
 void NeighbourLists<Columns>::build(Bodies& bodies, const Cell& cell, std::vector<Pair> histories) {
   measure(bodies);
+  if (bodies_ == 0) return;
   sort_bodies(bodies, cell, histories);
   outer_skin_ = outer_skin_for(cell);
   inner_skin_ = inner_skin_for(0);
@@ -120,6 +122,7 @@ void NeighbourLists<Columns>::build(Bodies& bodies, const Cell& cell, std::vecto
 
 template <class Columns>
 void NeighbourLists<Columns>::rebuild(Bodies& bodies, const Cell& cell, double pair_displacement) {
+  if (bodies_ == 0) return;
   if (!std::isfinite(inner_travel_)) throw ListFailure("a velocity is not a number");
   std::vector<Pair> kept = histories();
   inner_skin_ = inner_skin_for(pair_displacement);
@@ -374,6 +377,7 @@ template <class Columns>
 void NeighbourLists<Columns>::restore(const Bodies& bodies, const ListMemory<D>& m, const std::vector<Pair>& pairs) {
   const auto cell = [](const Vec<D>& length) { return length == Vec<D>{} ? Cell{} : PeriodicCell<D>{length}; };
   measure(bodies);
+  if (bodies_ == 0) return;
   Bodies then = bodies;
   for (std::size_t k = 0; k < bodies_; ++k) then.place(k, m.outer_position[k]);
   outer_cell_ = cell(m.outer_length), outer_skin_ = m.outer_skin;
