@@ -120,6 +120,7 @@ void SphereEngine::compute_forces(const Cell& cell, const CellFlow<3>& flow, dou
 void SphereEngine::add_wall_loads(double time_step) {
   using spheres::LoadSlot;
   using spheres::Slot;
+  const WallLaw wall_law(law_);
   team_.run(lists_.chunks(), [&](int chunk) {
     const auto c = static_cast<std::size_t>(chunk);
     for (std::size_t n = near_begin_[c]; n < near_begin_[c + 1]; ++n) {
@@ -128,7 +129,7 @@ void SphereEngine::add_wall_loads(double time_step) {
       const double* row = bodies_.row(k);
       const WallMotion motion{triple_at(row + Slot::half_velocity), triple_at(row + Slot::half_surface),
                               triple_at(row + Slot::velocity), triple_at(row + Slot::surface)};
-      const WallLoad add = wall_load(law_, walls_[static_cast<std::size_t>(near.wall)], bodies_.constants[k],
+      const WallLoad add = wall_load(wall_law, walls_[static_cast<std::size_t>(near.wall)], bodies_.constants[k],
                                      bodies_.position(k), motion, time_step, near.tangential_force);
       if (!add.touches) continue;
       double* load = bodies_.load(k);
