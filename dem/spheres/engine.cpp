@@ -24,7 +24,7 @@ void SphereEngine::choose_kernels() {
   const bool rolls = law_.rolling_friction > 0;
   rotates_ = law_.friction > 0 || rolls || (law_.wall_friction > 0 && !walls_.empty());
   force_kernel_ = spheres::select_kernel(law_, free_cell_ ? Tally::stress : Tally::nothing, isa_);
-  motion_kernel_ = select_motion({rotates_, free_cell_, rolls});
+  motion_kernel_ = select_motion({rotates_, free_cell_, rolls}, isa_);
 }
 
 void SphereEngine::start_half_steps() {
@@ -40,8 +40,9 @@ void SphereEngine::start_half_steps() {
 Advance SphereEngine::advance(const MotionStep<3>& step, double) {
   const SphereMotionKernel kernel = next_motion_kernel_ ? next_motion_kernel_ : motion_kernel_;
   next_motion_kernel_ = nullptr;
+  const SphereArrays arrays = arrays_of(bodies_);
   over_chunks(team_, lists_, motion_tallies_, [&](std::size_t begin, std::size_t end) {
-    return kernel(bodies_, begin, end, step, prediction_, gravity_);
+    return kernel(arrays, begin, end, step, prediction_, gravity_);
   });
   motion_tally_ = {};
   for (const SphereMotionTally& t : motion_tallies_) {
