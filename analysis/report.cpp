@@ -152,6 +152,12 @@ std::optional<std::string> refusal_of_triangles(const Takes& takes, const Analys
   return std::nullopt;
 }
 
+bool has_tangential_stiffness(const AnalysisInput& input) {
+  if (!input.spheres_state) return input.state.law.tangential_stiffness > 0;
+  const SphereLaw& law = input.spheres_state->law;
+  return law.normal == NormalForce::hertz || law.tangential_stiffness > 0;
+}
+
 // Why a section does not take the input; none: it does.
 std::optional<std::string> refusal(const Takes& takes, const AnalysisInput& input, const AnalysisOptions& options) {
   if (!input.packing_3d && !takes.plane) return "is defined for spheres; this packing is in the plane";
@@ -176,9 +182,11 @@ std::optional<std::string> refusal(const Takes& takes, const AnalysisInput& inpu
     return "--stiffness is for packings without a law, and this one has its own";
   if (takes.stiffness && input.has_law()) {  // a state's law fills only the axes it has; a network's law has all
     const NetworkLaw rows = input.network_law(options);
-    if (rows != NetworkLaw::frictionless && !(input.state.law.tangential_stiffness > 0))
+    if (rows != NetworkLaw::frictionless && !has_tangential_stiffness(input))
       return "the law of the state has no tangential stiffness; use --law frictionless";
-    if (rows == NetworkLaw::rolling && !(input.state.law.rolling_stiffness > 0))
+    const double rolling =
+        input.spheres_state ? input.spheres_state->law.rolling_stiffness : input.state.law.rolling_stiffness;
+    if (rows == NetworkLaw::rolling && !(rolling > 0))
       return "the law of the state has no rolling stiffness; use --law friction";
   }
   return std::nullopt;
