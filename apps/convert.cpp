@@ -92,11 +92,16 @@ int convert_command(int argc, char** argv) {
   }
   if (output.ends_with(".h5")) {
     if (file.packing_3d)
-      throw InputError(input_path, 0, "-o", output, "a state file holds planar packings; this one is in 3D");
-    write_state(file.state, output);
+      write_state(file.spheres ? *file.spheres : foreign_state(*file.packing_3d), output);
+    else
+      write_state(file.state, output);
     return exit_done;
   }
   const State<Disks>& state = file.state;
+  if (file.spheres) {
+    write_files_atomically(files_of(*file.packing_3d, output, file.spheres->step, file.spheres->time));
+    return exit_done;
+  }
   write_files_atomically(file.packing_3d ? files_of(*file.packing_3d, output, state.step, state.time)
                                          : files_of(state.packing, output, state.step, state.time));
   return exit_done;

@@ -103,8 +103,39 @@ Json law_json(const TriangleLaw& law) {
           {"limit_angle", number(angle)}};
 }
 
+// The same of spheres: E and nu with Hertz's law, stiffnesses with the linear one.
+Json law_json(const SphereLaw& law) {
+  const auto& [normal, grain, wall, kn, kt, zeta, zeta_t, mu, mu_w, mu_r, kr, f0, d0] = law;
+  return {{"normal", kNormalForceNames[static_cast<std::size_t>(normal)]},
+          {"modulus", grain.modulus},
+          {"poisson", grain.poisson},
+          {"wall_modulus", wall.modulus},
+          {"wall_poisson", wall.poisson},
+          {"normal_stiffness", kn},
+          {"tangential_stiffness", kt},
+          {"damping", zeta},
+          {"tangential_damping", zeta_t},
+          {"friction", mu},
+          {"wall_friction", mu_w},
+          {"rolling_friction", mu_r},
+          {"rolling_stiffness", kr},
+          {"attraction", f0},
+          {"attraction_range", d0}};
+}
+
 // What only one system has: numbers of bodies, and what ends the report.
-void add_size(Json&, const State<Disks>&) {}
+void add_size(Json& json, const State<Spheres>& state) {
+  json["grains"] = state.packing.bodies.size();
+  json["walls"] = state.packing.walls.size();
+}
+void add_size(Json& json, const State<Disks>& state) {
+  if (state.scene.container.shape == ContainerShape::none) return;
+  const Packing<2>& p = state.packing;
+  json["grains"] = count_free(p);
+  json["wall_grains"] = p.grains() - count_free(p);
+  json["feet"] = p.feet.size();
+  json["grains_left"] = state.surroundings.grains_left;
+}
 void add_size(Json& json, const State<TriangleGrains>& state) {
   const TrianglePacking& p = state.packing;
   const auto free = std::count(p.grains.part.begin(), p.grains.part.end(), GrainPart::free);
@@ -120,6 +151,10 @@ void add_scales(Json& json, const State<Disks>& state) {
   const Scales s = scales(state);
   json["scales"] = scales_json(s);
   if (state.scene.units) json["si"] = si_json(state, s);
+}
+void add_scales(Json& json, const State<Spheres>& state) {
+  const double dt = state.time_step;
+  json["scales"] = {{"dt", dt > 0 ? Json(dt) : Json()}};
 }
 void add_scales(Json& json, const State<TriangleGrains>& state) {
   const double dt = state.time_step;

@@ -13,9 +13,13 @@ int lab_command(int argc, char** argv) {
     std::string_view name;
     int (*run)(int, char**);
   };
-  constexpr Experiment experiments[] = {{"pair", lab_pair},       {"cluster", lab_cluster},
-                                        {"grain", lab_grain},     {"collide-squares", lab_collide_squares},
-                                        {"overlap", lab_overlap}, {"throughput", lab_throughput}};
+  constexpr Experiment experiments[] = {{"pair", lab_pair},
+                                        {"cluster", lab_cluster},
+                                        {"grain", lab_grain},
+                                        {"collide-squares", lab_collide_squares},
+                                        {"overlap", lab_overlap},
+                                        {"throughput", lab_throughput},
+                                        {"soft-particle", lab_soft_particle}};
   std::string list;
   for (const Experiment& e : experiments) {
     if (argc > 1 && e.name == argv[1]) return e.run(argc - 1, argv + 1);

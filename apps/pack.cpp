@@ -52,6 +52,7 @@ struct Bulk {
   std::int64_t grains = 0, triangles = 0;
 };
 Bulk bulk(const State<Disks>& state) { return {static_cast<std::int64_t>(state.packing.bodies.size()), 0}; }
+Bulk bulk(const State<Spheres>& state) { return {static_cast<std::int64_t>(state.packing.bodies.size()), 0}; }
 Bulk bulk(const State<TriangleGrains>& state) {
   const Grains& g = state.packing.grains;
   Bulk b;
@@ -109,6 +110,13 @@ void print_scales(const PackJob& job, const State<TriangleGrains>& state) {
   if (walls > 0) std::cerr << ", " << walls << " grains of walls";
   std::cerr << "  omega_max " << text(job.scene.step.fraction / state.time_step) << " 1/s  dt " << text(state.time_step)
             << " s; units cm, g, s\n";
+}
+
+void print_scales(const PackJob&, const State<Spheres>& state) {
+  const auto [smallest, largest] =
+      std::minmax_element(state.packing.bodies.radius.begin(), state.packing.bodies.radius.end());
+  std::cerr << state.packing.bodies.size() << " spheres  d " << text(2 * *smallest) << " to " << text(2 * *largest)
+            << " a  dt " << text(state.time_step) << " T0\n";
 }
 
 void print_scales(const PackJob& job, const State<Disks>& state) {

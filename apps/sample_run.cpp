@@ -14,6 +14,7 @@
 #include "dem/input_error.hpp"
 #include "dem/run_error.hpp"
 #include "dem/scene/text.hpp"
+#include "dem/spheres/series.hpp"
 #include "dem/triangles/series.hpp"
 
 namespace isostat {
@@ -46,9 +47,10 @@ class SeriesFile {
   std::ofstream out_;
 };
 
-// What solves the statics of a system; nothing does for triangles.
+// What solves the statics of a system; nothing does for triangles and spheres.
 std::unique_ptr<StaticSolver<Disks>> static_solver(const State<Disks>&) { return std::make_unique<NewtonFinishing>(); }
 std::unique_ptr<StaticSolver<TriangleGrains>> static_solver(const State<TriangleGrains>&) { return nullptr; }
+std::unique_ptr<StaticSolver<Spheres>> static_solver(const State<Spheres>&) { return nullptr; }
 
 class SampleRun {
  public:

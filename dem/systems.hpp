@@ -8,11 +8,12 @@
 #include <variant>
 
 #include "dem/disks/disks.hpp"
+#include "dem/spheres/spheres.hpp"
 #include "dem/triangles/triangles.hpp"
 
 namespace isostat {
 
-using AnyState = std::variant<State<Disks>, State<TriangleGrains>>;
+using AnyState = std::variant<State<Disks>, State<TriangleGrains>, State<Spheres>>;
 
 // The state that a scene begins with (one of grains.file: at time 0 under the scene's law).
 // Throws InputError where the scene cannot be begun.

@@ -39,6 +39,11 @@ constexpr Vec<D> operator*(double s, Vec<D> a) {
   return a;
 }
 template <int D>
+constexpr Vec<D> operator/(Vec<D> a, double s) {
+  for (int k = 0; k < D; ++k) a[k] /= s;
+  return a;
+}
+template <int D>
 constexpr double dot(const Vec<D>& a, const Vec<D>& b) {
   double s = 0;
   for (int k = 0; k < D; ++k) s += a[k] * b[k];

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dem/disks/certificate.hpp"
+#include "dem/spheres/certificate.hpp"
 #include "dem/triangles/certificate.hpp"
 
 namespace isostat {
@@ -38,7 +39,12 @@ ForceReading read_foreign(const Packing<D>& packing) {
 }  // namespace
 
 ForceReading read_forces(const AnalysisInput& input) {
-  if (input.packing_3d) return read_foreign(*input.packing_3d);
+  if (input.packing_3d) {
+    if (!input.spheres_state) return read_foreign(*input.packing_3d);
+    const SphereLaw& law = input.spheres_state->law;
+    const double scale = force_scale(law, input.spheres_state->imposed_stress);
+    return {true, true, law.attraction > 0, scale, kLoadTolerance * scale};
+  }
   if (input.triangles) {  // forces follow from the positions
     ForceReading reading;
     reading.known = reading.law_known = true, reading.cohesive = false;

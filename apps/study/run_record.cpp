@@ -9,6 +9,8 @@
 #include "dem/disks/physical_hash.hpp"
 #include "dem/files/atomic_file.hpp"
 #include "dem/input_error.hpp"
+#include "dem/spheres/physical_hash.hpp"
+#include "dem/state/solid_fraction.hpp"
 #include "dem/triangles/physical_hash.hpp"
 
 namespace isostat {
@@ -41,6 +43,12 @@ RunRecord common_record(const State<System>& state) {
 }  // namespace
 
 RunRecord record_of(const State<TriangleGrains>& state) { return common_record(state); }
+
+RunRecord record_of(const State<Spheres>& state) {
+  RunRecord record = common_record(state);
+  if (state.packing.cell) record.solid_fraction = solid_fraction(state.packing);
+  return record;
+}
 
 RunRecord record_of(const State<Disks>& state) {
   RunRecord record = common_record(state);

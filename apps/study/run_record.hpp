@@ -6,6 +6,7 @@
 #include <string>
 
 #include "dem/disks/disks.hpp"
+#include "dem/spheres/spheres.hpp"
 #include "dem/triangles/triangles.hpp"
 
 namespace isostat {
@@ -33,6 +34,7 @@ struct RunRecord {
 // What can be read off the state itself.
 RunRecord record_of(const State<Disks>& state);
 RunRecord record_of(const State<TriangleGrains>& state);
+RunRecord record_of(const State<Spheres>& state);
 
 void write_record(const RunRecord& record, const std::string& path);
 // None if there is no such file, or none that can be understood (a record is no loss: the state is what counts).

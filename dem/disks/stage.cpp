@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
-#include "dem/disks/energy.hpp"
 #include "dem/disks/sample.hpp"
-#include "dem/solver/random.hpp"
+#include "dem/solver/agitation.hpp"
 
 namespace isostat {
 
@@ -14,58 +12,30 @@ void prepare_stage(State<Disks>& s, const StageScene& stage) {
   s.progress.start_stiffness = s.law.normal_stiffness;
   const double stiffest = std::max(s.law.normal_stiffness, stage.normal_stiffness.value_or(0));
   const double dt = time_step(s.scene, stiffest, s.packing), earlier = 0.5 * (s.time_step - dt);
-  if (dt == s.time_step) return;
+  if (dt == s.time_step || dt == 0) return;  // 0: nothing is left
   s.time_step = dt;
   DiskMemory& m = s.memory;
   const Bodies<2>& b = s.packing.bodies;
-  for (std::size_t k = 0; k < m.half_velocity.size(); ++k) {
+  for (std::size_t k = 0; k < std::min(m.half_velocity.size(), s.packing.grains()); ++k) {
     m.half_velocity[k] += (earlier / b.mass[k]) * m.force[k];
     m.half_spin[k] += earlier * m.torque[k] / b.inertia[k];
   }
 }
 
 void agitate(State<Disks>& s, const StageScene& stage) {
-  if (!(stage.velocity > 0)) return;
-  const double rms = stage.velocity * std::sqrt(s.law.attraction * s.law.attraction_range);
-  Bodies<2>& b = s.packing.bodies;
-  Random random(s.seed, s.random_counter);
-  // Drawn in the order of the ids: storage order is the solver's business.
-  std::vector<std::size_t> order(b.size());
-  for (std::size_t k = 0; k < b.size(); ++k) order[k] = k;
-  std::sort(order.begin(), order.end(), [&](std::size_t p, std::size_t q) { return b.id[p] < b.id[q]; });
-  const double before = energies(s).kinetic;
-  Vec2 momentum{};
-  double mass = 0;
-  std::erase_if(order, [&](std::size_t k) { return !is_free(s.packing.part, k); });
-  for (std::size_t k : order) {
-    b.velocity[k] = {{random.normal(), random.normal()}};
-    momentum += b.mass[k] * b.velocity[k];
-    mass += b.mass[k];
-  }
-  double sum = 0;
-  for (std::size_t k : order) {
-    b.velocity[k] -= (1 / mass) * momentum;
-    sum += dot(b.velocity[k], b.velocity[k]);
-  }
-  const double scale = sum > 0 ? rms / std::sqrt(sum / static_cast<double>(order.size())) : 0.0;
-  double after = 0;
-  for (std::size_t k = 0; k < b.size(); ++k) {
-    if (!is_free(s.packing.part, k)) continue;
-    b.velocity[k] = scale * b.velocity[k];
-    after += 0.5 * b.mass[k] * dot(b.velocity[k], b.velocity[k]);
-    b.spin[k] = 0;
-    if (!s.memory.half_velocity.empty()) {
-      s.memory.half_velocity[k] = b.velocity[k] - (0.5 * s.time_step / b.mass[k]) * s.memory.force[k];
-      s.memory.half_spin[k] = -0.5 * s.time_step * s.memory.torque[k] / b.inertia[k];
-    }
-  }
-  s.random_counter = random.counter();
-  s.ledger.injected += after - before;
+  if (stage.velocity > 0) draw_velocities(s, stage.velocity * std::sqrt(s.law.attraction * s.law.attraction_range));
 }
 
-bool event_met(const State<Disks>&, const StageScene&) { return false; }
+bool event_met(const State<Disks>& s, const StageScene&) {
+  const Bodies<2>& b = s.packing.bodies;
+  if (b.size() != 2 || !s.packing.links.empty()) return false;
+  return dot(b.position[1] - b.position[0], b.velocity[1] - b.velocity[0]) > 0;
+}
 
-std::string event_missing(const State<Disks>&, const StageScene&) { return "no such event among disks"; }
+std::string event_missing(const State<Disks>& s, const StageScene&) {
+  if (s.packing.bodies.size() != 2) return "separated is an end for two grains";
+  return s.packing.links.empty() ? "the grains have not yet collided" : "the grains still touch";
+}
 
 bool law_changes(const State<Disks>& s, const StageScene& stage) {
   return stage.normal_stiffness && s.law.normal_stiffness != *stage.normal_stiffness;

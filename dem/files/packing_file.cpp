@@ -109,6 +109,10 @@ void read_triangles_into(PackingFile& file, const std::string& path, const Packi
 }
 
 void take(PackingFile& file, State<Disks> state) { file.state = std::move(state); }
+void take(PackingFile& file, State<Spheres> state) {
+  file.packing_3d = state.packing;
+  file.spheres = std::move(state);
+}
 void take(PackingFile& file, State<TriangleGrains> state) {
   file.corners = placed_triangles(state.packing);
   file.triangles = std::move(state);
@@ -248,6 +252,13 @@ PackingFile read_packing(const std::string& given_path, const PackingReading& re
 State<Disks> foreign_state(Packing<2> packing) {
   State<Disks> state;
   state.packing = std::move(packing);
+  return state;
+}
+
+State<Spheres> foreign_state(Packing<3> packing) {
+  State<Spheres> state;
+  static_cast<Packing<3>&>(state.packing) = std::move(packing);
+  state.scene.system = SceneSystem::spheres;
   return state;
 }
 

@@ -16,6 +16,7 @@ struct PackingFile {
   PackingFormat format = PackingFormat::state;
   State<Disks> state;                              // of a planar file; of another format than a state: foreign_state()
   std::optional<Packing<3>> packing_3d;            // of a 3D file; `state` then has no grains
+  std::optional<State<Spheres>> spheres;           // of a state of spheres, beside packing_3d
   std::optional<State<TriangleGrains>> triangles;  // of a file of triangles; `state` then has no grains
   std::vector<Triangle> corners;                   // of the triangles, anticlockwise: of a network as its file has them
   bool links_given = false;                        // the file lists its links; false: found by touching
@@ -35,6 +36,8 @@ PackingFormat sniff_packing_format(const std::string& path);
 
 // A state for a foreign packing: no law, no history, time 0; kinds, gaps and forces of the links as given.
 State<Disks> foreign_state(Packing<2> packing);
+// The same in space.
+State<Spheres> foreign_state(Packing<3> packing);
 // The same for triangles, with the law of a network of triangles.
 State<TriangleGrains> foreign_state(TrianglePacking packing);
 

@@ -13,6 +13,9 @@
 #include "dem/files/state_layout.hpp"
 #include "dem/files/state_seal.hpp"
 #include "dem/input_error.hpp"
+#include "dem/spheres/physical_hash.hpp"
+#include "dem/spheres/state_check.hpp"
+#include "dem/spheres/state_layout.hpp"
 #include "dem/triangles/physical_hash.hpp"
 #include "dem/triangles/state_check.hpp"
 #include "dem/triangles/state_layout.hpp"
@@ -94,7 +97,8 @@ StateFile decode_state(std::string_view image, const std::string& path) {
     const std::string system(version < kFirstWithSystem ? Disks::name : file.text_attribute("/", "system"));
     if (system == Disks::name) return decode<Disks>(file, path, version);
     if (system == TriangleGrains::name) return decode<TriangleGrains>(file, path, version);
-    throw InputError(path, 0, "/@system", system, "this isostat knows disks and triangles");
+    if (system == Spheres::name) return decode<Spheres>(file, path, version);
+    throw InputError(path, 0, "/@system", system, "this isostat knows disks, triangles and spheres");
   } catch (const Hdf5Error& error) {
     throw InputError(path, 0, error.path, "", error.what());
   }
@@ -131,5 +135,8 @@ template State<Disks> read_state(const std::string&);
 template std::string encode_state(const State<TriangleGrains>&, Provenance);
 template void write_state(const State<TriangleGrains>&, const std::string&, Provenance);
 template State<TriangleGrains> read_state(const std::string&);
+template std::string encode_state(const State<Spheres>&, Provenance);
+template void write_state(const State<Spheres>&, const std::string&, Provenance);
+template State<Spheres> read_state(const std::string&);
 
 }  // namespace isostat

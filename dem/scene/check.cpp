@@ -9,16 +9,18 @@ namespace {
 void check_control(const Scene& scene, std::size_t i, std::vector<SceneConflict>& found) {
   const StageScene& s = scene.stages[i];
   const auto key = [i](const char* name) { return stage_key(i, name); };
-  const auto one_master = [&](const std::optional<double>& stress, const std::optional<double>& rate, const char* k) {
+  const auto one_master = [&](const std::optional<double>& stress, const std::optional<double>& rate, const char* k,
+                              const char* partner) {
     if (stress && rate)
       found.push_back({key(k),
                        real_text(*rate),
                        "a direction has an imposed stress or a strain rate, not both",
-                       {key(k), key(k == std::string("strain_rate_1") ? "stress_1" : "stress_2")}});
+                       {key(k), key(partner)}});
   };
-  one_master(s.stress_1, s.strain_rate_1, "strain_rate_1");
-  one_master(s.stress_2, s.strain_rate_2, "strain_rate_2");
-  const bool driven = s.driven(0) || s.driven(1);
+  one_master(s.stress_1, s.strain_rate_1, "strain_rate_1", "stress_1");
+  one_master(s.stress_2, s.strain_rate_2, "strain_rate_2", "stress_2");
+  one_master(s.stress_3, s.strain_rate_3, "strain_rate_3", "stress_3");
+  const bool driven = s.driven();
   const std::vector<std::string> involved{key("until"), key("strain_rate_1"), key("strain_rate_2")};
   if (waits_for_equilibrium(s.until) && driven)
     found.push_back({key("until"), quoted_text(name(s.until)),

@@ -22,10 +22,14 @@ std::string defaults_of(const SceneKey& key, SceneSystem system) {
 }
 
 std::string row_text(const SceneKey& key) {
-  constexpr SceneSystem first = SceneSystem::disks, second = SceneSystem::triangles;
-  std::string fallback = defaults_of(key, key.systems.has(first) ? first : second);
-  if (key.systems == SystemSet::all() && defaults_of(key, second) != fallback)
-    fallback += " (triangles " + defaults_of(key, second) + ")";
+  std::vector<SceneSystem> systems;
+  for (std::size_t s = 0; s < kSystemNames.size(); ++s)
+    if (key.systems.has(static_cast<SceneSystem>(s))) systems.push_back(static_cast<SceneSystem>(s));
+  const std::string first = defaults_of(key, systems.front());
+  std::string fallback = first;
+  for (const SceneSystem system : systems)
+    if (const std::string other = defaults_of(key, system); other != first)
+      fallback += " (" + std::string(name(system)) + " " + other + ")";
   std::string meaning(key.meaning);
   if (key.condition.holds) meaning += " Applies when " + std::string(key.condition.in_words) + ".";
   std::string text = "| `" + std::string(key.name) + "`";
@@ -54,9 +58,10 @@ std::string tables_of(SystemSet systems) {
 }
 
 std::string units_text() {
-  std::string text = "\n| unit | of triangles |\n| --- | --- |\n";
+  std::string text = "\n| unit | of triangles | of spheres |\n| --- | --- | --- |\n";
   for (const UnitWord& word : unit_words())
-    text += "| " + std::string(word.disks) + " | " + std::string(word.triangles) + " |\n";
+    text += "| " + std::string(word.disks) + " | " + std::string(word.triangles) + " | " + std::string(word.spheres) +
+            " |\n";
   return text;
 }
 
@@ -65,7 +70,8 @@ std::string units_text() {
 std::string scene_documentation() {
   std::string text =
       "# Scene keys\n\n"
-      "Generated from the table of keys (`dem/scene/keys.cpp`, `dem/disks/keys.cpp`, `dem/triangles/keys.cpp`); run "
+      "Generated from the table of keys (`dem/scene/keys.cpp`, `dem/disks/keys.cpp`, `dem/triangles/keys.cpp`, "
+      "`dem/spheres/keys.cpp`); run "
       "the tests with `ISOSTAT_REGENERATE=1` to write it anew.\n\n"
       "A scene is a TOML file. Every key has a default unless the table says otherwise; an unknown key is an error. On "
       "the command line, `--set KEY=VALUE` overrides a key with a TOML value (`0.5`, `true`, `'\"text\"'`); keys of "
@@ -76,8 +82,9 @@ std::string scene_documentation() {
       "that only one of them has; a key of another system is an error.\n\n"
       "Units of disks: a is the largest diameter, m the mass of a disk of that diameter, F0 the attraction of a "
       "contact (without cohesion a P), T0 = sqrt(m a / F0), V* = sqrt(F0 D0 / m), F1 = max(F0, a P).\n\n"
-      "Triangles have units of their own, cm, g and s. Where a key of all systems has a unit of disks, it is of "
-      "triangles:\n";
+      "Triangles have units of their own, cm, g and s. Spheres have those of disks, or any consistent set: read a, m, "
+      "F0 and T0 as 1 m, 1 kg, 1 N and 1 s for SI. Where a key of all systems has a unit of disks, it is of "
+      "triangles and spheres:\n";
   text += units_text();
   text +=
       "\nIn F1, F1/a and F1 a, a is then the root of the area of the largest grain, F1 = max(a P, weight of the "

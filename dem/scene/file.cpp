@@ -215,7 +215,8 @@ class Parser {
       if (row_of(g.key, scene_keys(system_))) continue;
       std::string rule = unknown(g.key);
       if (const SceneKey* other = row_of(g.key, scene_keys())) {
-        const std::size_t at = other->systems.has(SceneSystem::disks) ? 0 : 1;
+        std::size_t at = 0;
+        while (!other->systems.has(static_cast<SceneSystem>(at))) ++at;
         rule = "a key of " + std::string(kSystemNames[at]) + ", and this scene is of " + std::string(name(system_)) +
                ": the key system says so (without it: disks)";
       }

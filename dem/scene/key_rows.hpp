@@ -40,11 +40,22 @@ inline constexpr SceneRange positive{0, kInfinity, true, false};
 inline constexpr SceneRange not_negative{0, kInfinity, false, false};
 constexpr SceneRange from(double low, double high) { return {low, high, false, false}; }
 
-inline constexpr SceneCondition random_start{[](const Scene& s) {
-                                               return s.system == SceneSystem::disks ? s.grains.file.empty()
-                                                                                     : s.triangle_grains.file.empty();
-                                             },
+inline const std::string& grains_file(const Scene& s) {
+  switch (s.system) {
+    case SceneSystem::disks:
+      break;
+    case SceneSystem::triangles:
+      return s.triangle_grains.file;
+    case SceneSystem::spheres:
+      return s.sphere_grains.file;
+  }
+  return s.grains.file;
+}
+inline constexpr SceneCondition random_start{[](const Scene& s) { return grains_file(s).empty(); },
                                              "grains.file is empty"};
+inline constexpr SceneCondition random_places{[](const Scene& s) { return random_start.holds(s) && !is_collision(s); },
+                                              "grains.file is empty and grains.arrangement is \"random\""};
+inline constexpr SceneCondition collision{is_collision, "grains.file is empty and grains.arrangement is \"collision\""};
 
 // Rows as the rows of one system.
 inline std::vector<SceneKey> of(SceneSystem system, std::vector<SceneKey> rows) {

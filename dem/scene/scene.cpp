@@ -15,6 +15,7 @@ Scene default_scene(SceneSystem system, std::size_t stages) {
     stage.max_strain_rate = 1;
     stage.max_time = 60;
   }
+  if (system == SceneSystem::spheres) scene.step.fraction = 0.1;
   scene.stages.assign(stages, stage);
   return scene;
 }

@@ -14,20 +14,22 @@
 
 #include "dem/disks/scene.hpp"
 #include "dem/scene/surroundings.hpp"
+#include "dem/spheres/scene.hpp"
 #include "dem/triangles/scene.hpp"
 
 namespace isostat {
 
 // Which system a scene is of: the key `system`, disks where it is absent.
-enum class SceneSystem { disks, triangles };
-inline constexpr std::array<std::string_view, 2> kSystemNames{"disks", "triangles"};
+enum class SceneSystem { disks, triangles, spheres };
+inline constexpr std::array<std::string_view, 3> kSystemNames{"disks", "triangles", "spheres"};
 constexpr std::string_view name(SceneSystem system) { return kSystemNames[static_cast<std::size_t>(system)]; }
 constexpr std::string_view time_unit(SceneSystem system) { return system == SceneSystem::triangles ? "s" : "T0"; }
 
 enum class Integrator { verlet, gear };
 inline constexpr std::array<std::string_view, 2> kIntegratorNames{"verlet", "gear"};
 
-// [step]: of disks dt = fraction * sqrt(m_max / K_N), of triangles dt = fraction / omega_max of the smallest grain.
+// [step]: of disks dt = fraction * sqrt(m_max / K_N), of triangles dt = fraction / omega_max of the smallest grain, of
+// spheres fraction * sqrt(m / k) of the smallest.
 struct StepScene {
   double fraction = 0.06;  // c [-]
   Integrator integrator = Integrator::verlet;
@@ -92,6 +94,8 @@ struct StageScene {
   std::optional<double> normal_stiffness;  // K_N [F0/a] that the contacts are brought to; absent: it stays
   double stiffening_time = 200.0;          // [T0] of the exponential change of K_N
   Springs stiffening_keeps = Springs::keep_forces;
+  std::optional<double> friction;  // mu of spheres from this stage on; absent: it stays
+  double approach = 0;             // [a/T0] speed of the first soft-particle towards its partner
   Until until = Until::equilibrium;
   double time = 0.0;          // [T0] length of the stage with until = "time"
   double strain = 0.0;        // [-] |1 - L/L0| of a driven direction that ends the stage
@@ -148,8 +152,10 @@ struct Scene {
   std::uint64_t seed = 1;
   GrainsScene grains;                   // of disks
   TriangleGrainsScene triangle_grains;  // of triangles
+  SphereGrainsScene sphere_grains;      // of spheres
   LawScene law;
   TriangleLawScene triangle_law;
+  SphereLawScene sphere_law;
   double gravity = 0;  // weight per mass, along -y
   ContainerScene container;
   StepScene step;
@@ -161,6 +167,15 @@ struct Scene {
   std::optional<UnitsScene> units;
   friend bool operator==(const Scene&, const Scene&) = default;
 };
+
+// Two grains collide in free space.
+inline bool is_collision(const Scene& s) {
+  const auto collide = [](const auto& grains) {
+    return grains.file.empty() && grains.arrangement == Arrangement::collision;
+  };
+  return (s.system == SceneSystem::disks && collide(s.grains)) ||
+         (s.system == SceneSystem::triangles && collide(s.triangle_grains));
+}
 
 // A scene of this system without keys, with so many stages without keys: the defaults of times and rates go with the
 // units of a system.

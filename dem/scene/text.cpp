@@ -11,8 +11,8 @@ namespace {
 
 std::string_view type_name(const SceneField& field) {
   constexpr std::array<std::string_view, std::variant_size_v<SceneField>> names{
-      "boolean", "integer", "integer", "real", "real", "text", "list of reals", "text", "text",
-      "text",    "text",    "text",    "text", "text", "text", "text",          "text"};
+      "boolean", "integer", "integer", "real", "real", "text", "list of reals", "text", "text", "text",
+      "text",    "text",    "text",    "text", "text", "text", "text",          "text", "text"};
   return names[field.index()];
 }
 
@@ -46,8 +46,12 @@ Scene scene_with_every_key(SceneSystem system) {
 }
 
 const std::vector<UnitWord>& unit_words() {
-  static const std::vector<UnitWord> words{
-      {"a", "cm"}, {"T0", "s"}, {"1/T0", "1/s"}, {"a/T0^2", "cm/s^2"}, {"F0/a", "g/s^2"}};
+  static const std::vector<UnitWord> words{{"a", "cm", "a"},
+                                           {"T0", "s", "T0"},
+                                           {"1/T0", "1/s", "1/T0"},
+                                           {"a/T0^2", "cm/s^2", "a/T0^2"},
+                                           {"F0/a", "g/s^2", "F0/a^2"},
+                                           {"F1/a", "F1/a", "F1/a^2"}};
   return words;
 }
 
@@ -55,7 +59,8 @@ std::string_view unit_text(const SceneKey& key, SceneSystem system) {
   if (system == SceneSystem::disks || !key.systems.has(SceneSystem::disks)) return key.unit;
   const auto& words = unit_words();
   const auto found = std::find_if(words.begin(), words.end(), [&](const UnitWord& w) { return w.disks == key.unit; });
-  return found == words.end() ? key.unit : found->triangles;
+  if (found == words.end()) return key.unit;
+  return system == SceneSystem::triangles ? found->triangles : found->spheres;
 }
 
 std::string real_text(double value) {

@@ -19,7 +19,7 @@ std::string rule_text(const SceneKey& key);
 
 // The unit of a key: common rows hold the words of disks, which other systems call by their own.
 struct UnitWord {
-  std::string_view disks, triangles;
+  std::string_view disks, triangles, spheres;
 };
 const std::vector<UnitWord>& unit_words();
 std::string_view unit_text(const SceneKey& key, SceneSystem system);

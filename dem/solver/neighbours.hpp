@@ -17,6 +17,7 @@
 //   resize(n), fill(k, bodies, i, j), history(k), remember(k, history), static turned(history)
 //   static inner_skin(displacement of neighbours a step, mean diameter), kOuterSkin: optional, where the default skins
 //   do not suit
+//   kShortRows         optional: bodies are sorted row by row along the shorter side of what holds them, not along x
 #pragma once
 #include <array>
 #include <cstdint>
@@ -135,7 +136,7 @@ class NeighbourLists {
   std::vector<Pair> histories() const;
   void find_outer_by_size(const Bodies& bodies);
   bool broad() const;
-  CellGrid<D> grid_for(const std::vector<Vec<D>>& position, double cutoff) const;
+  CellGrid<D> grid_in(const Frame<D>& frame, double cutoff) const;
   double outer_skin_for(const Cell& cell) const;
   double inner_skin_for(double pair_displacement) const;
   std::size_t segment_of(std::int32_t i, std::int32_t j, std::uint8_t shift) const;

@@ -79,8 +79,7 @@ double NeighbourLists<Columns>::outer_skin_for(const Cell& cell) const {
 }
 
 template <class Columns>
-auto NeighbourLists<Columns>::grid_for(const std::vector<Vec<D>>& position, double cutoff) const -> CellGrid<D> {
-  const Frame<D> frame = frame_of(outer_cell_, position);
+auto NeighbourLists<Columns>::grid_in(const Frame<D>& frame, double cutoff) const -> CellGrid<D> {
   for (int k = 0; k < D; ++k) {
     if (!std::isfinite(frame.length[k])) throw ListFailure("a position is not a number");
     if (frame.periodic && !(frame.length[k] >= cutoff))
@@ -94,6 +93,7 @@ auto NeighbourLists<Columns>::grid_for(const std::vector<Vec<D>>& position, doub
 // In the order of size: the storage order, which changes in the run, must not show in the last bit after a restart.
 template <class Columns>
 void NeighbourLists<Columns>::measure(const Bodies& bodies) {
+  if (bodies_ == 0) return;
   std::vector<double> radii;
   for (std::size_t k = 0; k < bodies_; ++k) radii.push_back(bodies.radius(k));
   std::sort(radii.begin(), radii.end());
@@ -112,6 +112,7 @@ double NeighbourLists<Columns>::inner_skin_for(double pair_displacement) const {
 template <class Columns>
 void NeighbourLists<Columns>::build(Bodies& bodies, const Cell& cell, std::vector<Pair> histories) {
   measure(bodies);
+  if (bodies_ == 0) return;
   sort_bodies(bodies, cell, histories);
   outer_skin_ = outer_skin_for(cell);
   inner_skin_ = inner_skin_for(0);
@@ -122,6 +123,7 @@ void NeighbourLists<Columns>::build(Bodies& bodies, const Cell& cell, std::vecto
 
 template <class Columns>
 void NeighbourLists<Columns>::rebuild(Bodies& bodies, const Cell& cell, double pair_displacement) {
+  if (bodies_ == 0) return;
   if (!std::isfinite(inner_travel_)) throw ListFailure("a velocity is not a number");
   std::vector<Pair> kept = histories();
   inner_skin_ = inner_skin_for(pair_displacement);
@@ -153,10 +155,14 @@ void NeighbourLists<Columns>::sort_bodies(Bodies& bodies, const Cell& cell, std:
     }
     bodies.place(k, r);
   }
-  const GridMembers<D> members(
-      grid_for(position, broad() ? std::min(lists::kBroadOrder * mean_diameter_, largest_diameter_) + range_
-                                 : largest_diameter_ + range_),
-      position);
+  Frame<D> frame = frame_of(outer_cell_, position);
+  if constexpr (requires { Columns::kShortRows; })
+    if (frame.length[0] > frame.length[1]) {
+      std::swap(frame.origin[0], frame.origin[1]), std::swap(frame.length[0], frame.length[1]);
+      for (Vec<D>& r : position) std::swap(r[0], r[1]);
+    }
+  const double width = broad() ? std::min(lists::kBroadOrder * mean_diameter_, largest_diameter_) : largest_diameter_;
+  const GridMembers<D> members(grid_in(frame, width + range_), position);
   std::vector<std::int32_t> to(bodies_);
   for (std::size_t n = 0; n < bodies_; ++n)
     to[static_cast<std::size_t>(members.member[n])] = static_cast<std::int32_t>(n);
@@ -220,7 +226,7 @@ void NeighbourLists<Columns>::find_outer(const Bodies& bodies) {
   for (std::size_t k = 0; k < bodies_; ++k) outer_position_[k] = bodies.position(k);
   outer_i_.clear(), outer_j_.clear(), outer_shift_.clear();
 
-  const CellGrid<D> grid = grid_for(outer_position_, largest_diameter_ + range_ + outer_skin_);
+  const CellGrid<D> grid = grid_in(frame_of(outer_cell_, outer_position_), largest_diameter_ + range_ + outer_skin_);
   if (broad()) return find_outer_by_size(bodies);
   const GridMembers<D> members(grid, outer_position_);
   for (std::size_t i = 0; i < bodies_; ++i) {
@@ -279,16 +285,20 @@ void NeighbourLists<Columns>::filter_inner(const Bodies& bodies, const std::vect
   std::vector<std::size_t> count(segments, 0);
   std::vector<std::uint32_t> near;
   std::vector<std::uint16_t> segment;
-  near.reserve(2 * bodies_), segment.reserve(2 * bodies_);
+  near.resize(outer_i_.size()), segment.reserve(2 * bodies_);
   std::array<Vec<D>, kImages<D>> offsets{};
   for (std::uint8_t c = 0; c < kImages<D> && inner_cell_; ++c) offsets[c] = inner_cell_->offset(image_shift<D>(c));
   const double reach_beyond = range_ + inner_skin_;
+  std::size_t found = 0;
   for (std::size_t k = 0; k < outer_i_.size(); ++k) {
     const auto i = static_cast<std::size_t>(outer_i_[k]), j = static_cast<std::size_t>(outer_j_[k]);
     const Vec<D> d = inner_position_[j] + offsets[outer_shift_[k]] - inner_position_[i];
     const double reach = bodies.radius(i) + bodies.radius(j) + reach_beyond;
-    if (dot(d, d) > reach * reach) continue;
-    near.push_back(static_cast<std::uint32_t>(k));
+    near[found] = static_cast<std::uint32_t>(k);  // counts if it is
+    found += !(dot(d, d) > reach * reach);
+  }
+  near.resize(found);
+  for (const std::uint32_t k : near) {
     segment.push_back(static_cast<std::uint16_t>(segment_of(outer_i_[k], outer_j_[k], outer_shift_[k])));
     ++count[segment.back()];
   }
@@ -368,6 +378,7 @@ template <class Columns>
 void NeighbourLists<Columns>::restore(const Bodies& bodies, const ListMemory<D>& m, const std::vector<Pair>& pairs) {
   const auto cell = [](const Vec<D>& length) { return length == Vec<D>{} ? Cell{} : PeriodicCell<D>{length}; };
   measure(bodies);
+  if (bodies_ == 0) return;
   Bodies then = bodies;
   for (std::size_t k = 0; k < bodies_; ++k) then.place(k, m.outer_position[k]);
   outer_cell_ = cell(m.outer_length), outer_skin_ = m.outer_skin;

@@ -54,7 +54,8 @@ class SphereEngine {
   // Interference. A group's walls go with it; walls of every group do not.
   void boost(std::int32_t group, const Vec3& velocity);  // adds it
   // The group rigidly about an axis (a unit vector) through the centre: positions, velocities, spins, loads, springs
-  // inside the group and at its walls. Without a cell only (std::logic_error).
+  // inside the group and at its walls; springs that join it to others are stretched. Without a cell only
+  // (std::logic_error).
   void rotate(std::int32_t group, const Vec3& axis, double angle, const Vec3& centre);
   void set_wall_velocity(std::size_t wall, const Vec3& velocity);
   void stop();  // every velocity and spin is zero, of walls too
@@ -71,6 +72,8 @@ class SphereEngine {
   void steer(double keep, double push);  // v <- keep v + push F/m, w <- keep w + push M/I
 
  private:
+  template <class Stretched>
+  void stretch_springs_out_of(std::int32_t group, Stretched&& stretched);
   void load_bodies(const State<Spheres>& state);
   void load_springs(const State<Spheres>& state);
   void lists_are_new();  // what follows from the inner list

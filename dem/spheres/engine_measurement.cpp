@@ -88,6 +88,37 @@ void SphereEngine::stop() {
   for (SphereWall& w : walls_) w.velocity = {};
 }
 
+// stretched(spring on the body of the group, normal towards it, contact point, k_T) -> the spring.
+template <class Stretched>
+void SphereEngine::stretch_springs_out_of(std::int32_t group, Stretched&& stretched) {
+  SpherePairs& pairs = lists_.columns();
+  lists_.for_each([&](std::size_t k, std::int32_t i, std::int32_t j, std::uint8_t shift) {
+    const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+    const bool i_turns = bodies_.group[a] == group, j_turns = bodies_.group[b] == group;
+    if (i_turns == j_turns || !(law_.friction > 0)) return;
+    const Vec3 r = branch(i, j, shift, cell_);
+    const double radius_i = bodies_.radius(a), radius_j = bodies_.radius(b), distance = norm(r);
+    const double gap = distance - (radius_i + radius_j);
+    if (!(gap < 0)) return;
+    const Vec3 n = r / distance, contact = bodies_.position(a) + (radius_i / (radius_i + radius_j)) * r;
+    const double stiffness = tangential_stiffness(law_, pair_stiffness(law_, radius_i, radius_j), gap);
+    SphereHistory h = pairs.history(k);
+    const double side = j_turns ? 1 : -1;  // springs are those on j
+    h.tangential_force = side * stretched(side * h.tangential_force, n, contact, stiffness);
+    pairs.remember(k, h);
+  });
+  for (NearWall& near : bodies_.near_walls) {
+    const auto k = static_cast<std::size_t>(near.body);
+    const SphereWall& wall = walls_[static_cast<std::size_t>(near.wall)];
+    if (bodies_.group[k] != group || wall.group == group || !(law_.wall_friction > 0)) continue;
+    const WallFrame frame = wall_frame(wall, bodies_.position(k));
+    const double radius = bodies_.radius(k), gap = frame.distance - radius;
+    if (!(gap < 0)) continue;
+    near.tangential_force = stretched(near.tangential_force, frame.n, bodies_.position(k) - frame.distance * frame.n,
+                                      tangential_stiffness(law_, wall_stiffness(law_, radius), gap));
+  }
+}
+
 void SphereEngine::rotate(std::int32_t group, const Vec3& axis, double angle, const Vec3& centre) {
   using spheres::LoadSlot;
   using spheres::Slot;
@@ -95,6 +126,12 @@ void SphereEngine::rotate(std::int32_t group, const Vec3& axis, double angle, co
   const Rotation rotation(axis, angle);
   const auto about_centre = [&](const Vec3& r) { return centre + rotation(r - centre); };
   const auto in_group = [&](std::int32_t k) { return bodies_.group[static_cast<std::size_t>(k)] == group; };
+  // Springs that join the group to what is at rest are stretched by the slip of their contact point.
+  const auto stretched = [&](const Vec3& spring, const Vec3& n, const Vec3& contact, double stiffness) {
+    const Vec3 slip = about_centre(contact) - contact;
+    return spring - stiffness * (slip - dot(slip, n) * n);
+  };
+  stretch_springs_out_of(group, stretched);
   double furthest = 0;
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     if (bodies_.group[k] != group) continue;

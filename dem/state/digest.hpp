@@ -18,7 +18,10 @@ class Digest {
 
   void add(double x) { raw(x + 0.0); }  // -0 + 0 = +0
   void add(std::int64_t n) { raw(n); }
-  void add(const Vec2& v) { add(v[0]), add(v[1]); }
+  template <int D>
+  void add(const Vec<D>& v) {
+    for (const double x : v.c) add(x);
+  }
   void add(std::string_view text);
   std::string hex() const;  // 32 digits
 

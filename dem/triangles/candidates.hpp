@@ -27,6 +27,7 @@ class GrainPairs {
   History history(std::size_t k) const { return {spring_[k]}; }
   void remember(std::size_t k, const History& h) { spring_[k] = h.tangential_force; }
   static History turned(const History& h) { return h; }  // along z x n, which turns with the pair
+  static constexpr bool kShortRows = true;  // a bed is wide: what touches is a row apart, in the second-level cache
 
   // A step costs 1.4 ns a triangle more for every .001 cm of skin (candidates), a rebuild 80 ns a triangle every skin /
   // displacement steps: the sum is least at the root of kSkin d times the displacement (TRIANGLES.md 2, sides .1-.2).
@@ -63,13 +64,12 @@ class Candidates {
   // Groups of a phase touch disjoint grains; the last phase is of smooth walls, one group.
   static constexpr int kPhases = Lists::kPhases + 1;
   const std::vector<Group>& phase(int p) const { return phases_[p]; }
-  const std::vector<OverlapPack>& packs() const { return packs_; }
   std::size_t most_rows() const { return most_rows_; }
   std::size_t pairs() const { return pairs_; }  // of triangles, without padding
 
   template <class Visit>  // visit(grain i, grain j, slot a, slot b, offset of j) for every pair of triangles
   void for_each(Visit&& visit) const {
-    for (std::size_t p = 0; p < packs_.size(); ++p)
+    for (std::size_t p = 0; p < of_lane_.size() / 8; ++p)
       for (std::size_t l = 0; l < 8; ++l) {
         const Near& near = of_lane_[8 * p + l];
         for (std::size_t r = 0; near.i != near.j && r < packs_[p].rows; ++r) {
@@ -96,21 +96,34 @@ class Candidates {
     std::uint32_t begin, count;
   };
   static constexpr std::uint32_t kNowhere = 0xffffffff;
-  void look(const GrainStore& store, const Near& near, const Vec2& offset, double skin);
+  struct Circle {  // of a triangle, about its centroid [cm]
+    double x, y, reach;
+  };
+  void draw_circles(const GrainStore& store);
+  // Of the circles of grain g those within `radius` of a point: their number; places within the grain go to `found`.
+  std::size_t facing(std::size_t g, const Vec2& point, double radius, std::vector<std::uint32_t>& found) const;
+  void make_room(std::size_t more);
+  bool look(const GrainStore& store, Near near, const Vec2& offset, double skin);
   void pack(const GrainStore& store, SeparationKernel separation, double skin, std::size_t group);
 
   std::vector<OverlapPack> packs_;
   std::vector<Group> phases_[kPhases];
   AlignedVector<std::uint32_t> a_, b_;
+  std::vector<std::uint32_t> seen_;                                 // OverlapInput::seen
   AlignedVector<double> stiffness_, offset_x_, offset_y_, spring_;  // by lane
   std::vector<Near> of_lane_;                                       // i == j: a lane without grains
   std::size_t most_rows_ = 0, pairs_ = 0, slots_ = 0;
 
-  // Of the group in the making.
+  std::vector<Circle> circles_;  // grain after grain
+  std::vector<std::uint32_t> circles_begin_, facing_i_, facing_j_, every_;
+  std::vector<std::uint32_t> seen_by_;  // of slots: the last group that has seen it, counted from 1
+  std::uint32_t groups_ = 0;
+
+  // Of the group in the making: pairs of grains, and their pairs of triangles whose circles are near.
   std::vector<Near> near_;
+  std::size_t maybes_ = 0;
   AlignedVector<std::uint32_t> maybe_a_, maybe_b_;
   AlignedVector<double> maybe_x_, maybe_y_;
-  std::vector<std::uint32_t> facing_i_, facing_j_;
   std::vector<std::uint8_t> flag_;
   std::vector<double> stiffness_of_, spring_of_;
 };

@@ -101,15 +101,15 @@ void GrainStore::lay_out() {
   for (std::size_t t = 0; t < topologies_.size(); ++t) {
     const Topology& topology = topologies_[t];
     const std::size_t b = topology.joined.size();
-    for (std::size_t first = 0; first < members[t].size(); first += kernel_lanes) {
+    for (std::size_t first = 0; first < members[t].size(); first += kStride) {
       blocks_.push_back({static_cast<std::uint32_t>(slots_), static_cast<std::uint32_t>(beam_slots_),
                          topology.triangles, static_cast<std::uint16_t>(b), topology.joined.data()});
-      for (std::size_t l = 0; l < kernel_lanes && first + l < members[t].size(); ++l)
+      for (std::size_t l = 0; l < kStride && first + l < members[t].size(); ++l)
         slot_[members[t][first + l]] = slots_ + l, beam_slot_[members[t][first + l]] = beam_slots_ + l;
-      slots_ += kernel_lanes * topology.triangles, beam_slots_ += kernel_lanes * b;
+      slots_ += kStride * topology.triangles, beam_slots_ += kStride * b;
     }
     if (!topology.driven) free_slots_ = slots_;
-    most_work_ = std::max(most_work_, kernel_lanes * (4 * std::size_t{topology.triangles} + 2 * b));
+    most_work_ = std::max(most_work_, kStride * (4 * std::size_t{topology.triangles} + 2 * b));
   }
   for (auto& c : column_) c.assign(slots_, 0.0);
   for (auto& c : beam_column_) c.assign(beam_slots_, 0.0);
@@ -126,16 +126,16 @@ void GrainStore::lay_out() {
 // Lanes without a grain have the shape of the block's first one, without weight, mass and stiffness: they add zeros.
 void GrainStore::fill_padding() {
   for (const GrainBlock& block : blocks_)
-    for (std::size_t l = 1; l < kernel_lanes; ++l) {
+    for (std::size_t l = 1; l < kStride; ++l) {
       if (body_id[block.begin + l] >= 0) continue;
       for (std::size_t t = 0; t < block.triangles; ++t) {
-        const std::size_t from = block.begin + kernel_lanes * t, to = from + l;
+        const std::size_t from = block.begin + kStride * t, to = from + l;
         for (const Column c : {x, y, angle, reach, corner0, corner1, corner2, corner3, corner4, corner5, inertia})
           column_[c][to] = column_[c][from];
         body_id[to] = -1;
       }
       for (std::size_t b = 0; b < block.beams; ++b) {
-        const std::size_t from = block.beam_begin + kernel_lanes * b;
+        const std::size_t from = block.beam_begin + kStride * b;
         for (const BeamColumn c : {length, xi, yi, xj, yj}) beam_column_[c][from + l] = beam_column_[c][from];
       }
     }
@@ -172,7 +172,7 @@ void GrainStore::reorder(const std::vector<std::int32_t>& to) {
   lay_out();
   for (std::size_t g = 0; g < grains(); ++g) {
     for (std::size_t t = 0; t < triangles(g); ++t) {
-      const std::size_t s = slot(g, t), was = old_slot[from[g]] + kernel_lanes * t;
+      const std::size_t s = slot(g, t), was = old_slot[from[g]] + kStride * t;
       for (std::size_t c = 0; c < columns; ++c) column_[c][s] = old_column[c][was];
       std::copy_n(old_rows.begin() + static_cast<std::ptrdiff_t>(was * kernel::kCornerRow), kernel::kCornerRow,
                   rows.begin() + static_cast<std::ptrdiff_t>(s * kernel::kCornerRow));
@@ -182,7 +182,7 @@ void GrainStore::reorder(const std::vector<std::int32_t>& to) {
     }
     for (std::size_t b = 0; b < beams(g); ++b)
       for (std::size_t c = 0; c < beam_columns; ++c)
-        beam_column_[c][beam_place(g, b)] = old_beam_column[c][old_beam[from[g]] + kernel_lanes * b];
+        beam_column_[c][beam_place(g, b)] = old_beam_column[c][old_beam[from[g]] + kStride * b];
   }
   fill_padding();
 }

@@ -41,8 +41,9 @@ class GrainStore {
   std::size_t triangles(std::size_t g) const { return topology_[g]->triangles; }
   std::size_t beams(std::size_t g) const { return topology_[g]->joined.size(); }
   const std::array<std::uint16_t, 2>& joined(std::size_t g, std::size_t b) const { return topology_[g]->joined[b]; }
-  std::size_t slot(std::size_t g, std::size_t t) const { return slot_[g] + kernel_lanes * t; }
-  std::size_t beam_place(std::size_t g, std::size_t b) const { return beam_slot_[g] + kernel_lanes * b; }
+  static constexpr std::uint32_t kStride = 8;  // between the slots of a grain's triangles: lanes of a block
+  std::size_t slot(std::size_t g, std::size_t t) const { return slot_[g] + kStride * t; }
+  std::size_t beam_place(std::size_t g, std::size_t b) const { return beam_slot_[g] + kStride * b; }
   // Centres, and the radii within which the grains are, from the rows as they stand.
   void measure_circles();
   double tight(std::size_t g) const { return tight_[g]; }
@@ -129,7 +130,6 @@ class GrainStore {
   std::vector<std::int64_t> body_id;  // of slots
 
  private:
-  static constexpr std::size_t kernel_lanes = 8;
   struct Topology {
     std::uint16_t triangles;
     bool driven;

@@ -2,8 +2,8 @@
 # layering.sh ROOT: which room and which folder may include which. Prints every offence as FILE: what it reaches, and
 # exits 1 if there is one. The layers are data: a file sees its own layer and those of lower rank.
 #   rooms     geometry < dem < analysis < apps (CMakeLists.txt lists them in this order)
-#   dem       headers of scene < state < solver < run and files; the folder of a system stands on all of them, and of a
-#             system know only scene.hpp (its part of the scene), systems.hpp and the sources of files
+#   dem       headers of scene < state < solver < run, files and sample; the folder of a system stands on all of them,
+#             and of a system know only scene.hpp (its part of the scene), systems.hpp and the sources of files
 #   AnyState  a state of an unknown system stands where files and commands meet one, nowhere else
 #   analysis  sees states and the interface of finishing, never what marches a state in time, not even by a chain
 #   headers   no header shows a type of CGAL, SuiteSparse, GSL, HDF5, Cairo, FFTW or toml++
@@ -26,9 +26,10 @@ function reaches(file, origin, chain,    n, list, k) {  # depth first through th
 BEGIN {
   room["geometry"] = 1; room["dem"] = 2; room["analysis"] = 3; room["apps"] = 4
   layer["dem/scene"] = 1; layer["dem/state"] = 2; layer["dem/solver"] = 3; layer["dem/run"] = 4; layer["dem/files"] = 4
+  layer["dem/sample"] = 4
   marching = "^dem/(solver/(solver|neighbours|team|barostat)|run/(stage|stages|observers)[a-z_]*\\.|disks/(kernel/|engine|bodies_store|motion|pairs)|triangles/(kernel/|engine|store|motion)|spheres/(kernel/|engine|sphere_store|motion|pairs|walls))"
   system_folder = "^dem/(disks|triangles|spheres)/"
-  shared_folder = "^dem/(scene|state|solver|run|files)/"
+  shared_folder = "^dem/(scene|state|solver|run|files|sample)/"
   foreign = "^(CGAL|boost)/|^(suitesparse/)?(cholmod|umfpack|SuiteSparse|amd|metis)[^/]*\\.h|^gsl/|^(hdf5|H5)|^cairo|^fftw3|^toml"
 }
 FNR == 1 { all[FILENAME] }

@@ -76,4 +76,10 @@ State<Spheres> random_state(const RandomSpheres& r) {
   return s;
 }
 
+double total_mass(const State<Spheres>& s) {
+  double mass = 0;
+  for (const double m : s.packing.bodies.mass) mass += m;
+  return mass;
+}
+
 }  // namespace isostat::oracle

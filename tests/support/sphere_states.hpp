@@ -33,4 +33,6 @@ struct RandomSpheres {
 // Spheres on a perturbed lattice, so that they overlap a little here and there.
 State<Spheres> random_state(const RandomSpheres& r);
 
+double total_mass(const State<Spheres>& state);
+
 }  // namespace isostat::oracle

@@ -11,12 +11,16 @@
 #include "dem/disks/engine.hpp"
 #include "dem/disks/physical_hash.hpp"
 #include "dem/files/state_file.hpp"
+#include "dem/spheres/certificate.hpp"
+#include "dem/spheres/engine.hpp"
+#include "dem/spheres/physical_hash.hpp"
 #include "dem/state/balance.hpp"
 #include "dem/triangles/certificate.hpp"
 #include "dem/triangles/engine.hpp"
 #include "dem/triangles/physical_hash.hpp"
 #include "tests/support/disk_states.hpp"
 #include "tests/support/moving_triangles.hpp"
+#include "tests/support/sphere_states.hpp"
 
 namespace isostat::systems {
 
@@ -25,7 +29,7 @@ template <class System>
 struct Variant {
   std::string name;
   State<System> state;
-  CellControl<2> control;
+  CellControl<System::dimension> control;
 };
 
 template <class System>
@@ -33,10 +37,25 @@ struct Fixture;
 
 template <>
 struct Fixture<Disks> {
-  // Every law that a kernel exists for, in a fixed cell, in one that is compressed fast, and without a cell.
+  static constexpr bool kLedger = true;  // energies can be watched
+
+  // Between smooth walls: of a box that is shaken, of a drum that turns.
+  static Variant<Disks> walled(const std::string& name, oracle::RandomDisks r, ContainerShape shape) {
+    const double size = std::sqrt(r.count);
+    r.container.shape = shape, r.container.walls = ContainerWalls::smooth;
+    r.container.width = 0.96 * size, r.container.height = 1.3 * size, r.container.radius = 0.6 * size;
+    if (shape == ContainerShape::drum)
+      r.motion.rotation = 0.5;
+    else
+      r.motion.vibration_amplitude = 0.02, r.motion.vibration_frequency = 3;
+    return {name, random_state(r), {}};
+  }
+
+  // Every law that a kernel exists for, in a fixed cell, in one that is compressed fast, without a cell and between
+  // smooth walls.
   static std::vector<Variant<Disks>> variants(int count) {
     std::vector<Variant<Disks>> list;
-    for (const char* around : {"fixed cell", "free cell", "no cell"})
+    for (const char* around : {"fixed cell", "free cell", "no cell", "smooth box", "smooth drum"})
       for (const bool adhesion : {false, true})
         for (const char* axes : {"frictionless", "friction", "rolling", "undamped rolling"}) {
           const std::string law(axes), room(around);
@@ -46,7 +65,12 @@ struct Fixture<Disks> {
           if (law.starts_with("undamped")) r.law.damping = 0;
           if (law == "frictionless") r.law.friction = 0;
           r.law.rolling = law.ends_with("rolling");
-          Variant<Disks> v{law + (adhesion ? ", adhesion, " : ", ") + room, random_state(r), {}};
+          const std::string name = law + (adhesion ? ", adhesion, " : ", ") + room;
+          if (room.starts_with("smooth")) {
+            list.push_back(walled(name, r, room == "smooth box" ? ContainerShape::box : ContainerShape::drum));
+            continue;
+          }
+          Variant<Disks> v{name, random_state(r), {}};
           if (room == "free cell") {
             v.control.stress = isotropic<2>(100), v.control.max_strain_rate = 2;
             v.control.inertia = 0.3 * oracle::total_mass(v.state);
@@ -65,10 +89,12 @@ struct Fixture<Disks> {
   }
   static int chunks(const State<Disks>& s) { return DiskEngine::Lists::chunk_count(s.packing.bodies.size()); }
   // Something of all that the variant is there for has happened.
-  static bool is_lively(const Variant<Disks>&, const State<Disks>& end) { return !end.packing.links.empty(); }
+  static bool is_lively(const Variant<Disks>& v, const State<Disks>& end) {
+    return !end.packing.links.empty() && (closed(v.state) || !end.packing.feet.empty());
+  }
   static unsigned least_rebuilds(const State<Disks>&) { return 6; }  // of the inner lists, in 150 steps
   // No force from outside.
-  static bool closed(const State<Disks>&) { return true; }
+  static bool closed(const State<Disks>& s) { return s.scene.container.shape == ContainerShape::none; }
 
   // Turned about the origin by an angle; springs and spins of the plane turn with the bodies.
   static State<Disks> turned(State<Disks> s, double angle) {
@@ -91,6 +117,7 @@ struct Fixture<Disks> {
 
 template <>
 struct Fixture<TriangleGrains> {
+  static constexpr bool kLedger = true;
   using Moving = oracle::MovingTriangles;
 
   static Variant<TriangleGrains> variant(const std::string& name, const Moving& moving, bool cell = true) {
@@ -226,10 +253,105 @@ struct Fixture<TriangleGrains> {
   }
 };
 
-using Systems = ::testing::Types<Disks, TriangleGrains>;
+template <>
+struct Fixture<Spheres> {
+  static constexpr bool kLedger = false;
+
+  static Variant<Spheres> variant(const SphereLaw& law, int count, const std::string& room) {
+    oracle::RandomSpheres r;
+    r.count = count, r.law = law, r.cell = room != "no cell" && room != "walls";
+    r.room = 0.5;
+    Variant<Spheres> v{oracle::words(law) + ", " + room, random_state(r), {}};
+    v.state.scene.system = SceneSystem::spheres;
+    if (room == "free cell") {
+      v.control.stress = isotropic<3>(100), v.control.max_strain_rate = 2;
+      v.control.inertia = 0.3 * oracle::total_mass(v.state);
+    }
+    if (room == "walls") enclose(v.state.packing);
+    return v;
+  }
+  // A shell around half of them, and a plane that closes on all.
+  static void enclose(SpherePacking& p) {
+    Vec3 low = p.bodies.position.front(), high = low;
+    for (const Vec3& r : p.bodies.position)
+      for (int a = 0; a < 3; ++a) low[a] = std::min(low[a], r[a]), high[a] = std::max(high[a], r[a]);
+    SphereWall plane, shell;
+    plane.point = low, plane.normal = {{0, 0, 1}}, plane.velocity = {{0.3, 0, 0.5}};
+    shell.shape = WallShape::shell, shell.point = 0.5 * (low + high), shell.radius = 0.6 * norm(high - low);
+    shell.group = 0;
+    p.walls = {plane, shell};
+    p.group.resize(p.bodies.size());
+    for (std::size_t k = 0; k < p.group.size(); ++k) p.group[k] = static_cast<std::int32_t>(k % 2);
+  }
+
+  // Every law that a kernel exists for, in a fixed cell and without one; one of each normal law in a cell that is
+  // compressed fast, and between walls that move.
+  static std::vector<Variant<Spheres>> variants(int count) {
+    std::vector<Variant<Spheres>> list;
+    for (const char* room : {"fixed cell", "no cell"})
+      for (const SphereLaw& law : oracle::sphere_laws()) list.push_back(variant(law, count, room));
+    for (const char* room : {"free cell", "walls"})
+      for (const NormalForce normal : {NormalForce::hertz, NormalForce::linear})
+        list.push_back(variant(oracle::soft_sphere_law(normal), count, room));
+    return list;
+  }
+  static std::vector<Variant<Spheres>> large(int count) {
+    return {variant(oracle::soft_sphere_law(), count, "free cell"), variant(oracle::soft_sphere_law(), count, "walls")};
+  }
+  static int chunks(const State<Spheres>& s) { return SphereEngine::Lists::chunk_count(s.packing.bodies.size()); }
+  static bool is_lively(const Variant<Spheres>&, const State<Spheres>& end) {
+    return !end.packing.links.empty() && end.packing.wall_links.empty() == end.packing.walls.empty();
+  }
+  static unsigned least_rebuilds(const State<Spheres>&) { return 1; }
+  static bool closed(const State<Spheres>& s) { return s.packing.walls.empty(); }
+
+  // Turned about the z axis through the origin.
+  static State<Spheres> turned(State<Spheres> s, double angle) {
+    const double c = std::cos(angle), t = std::sin(angle);
+    const auto turn = [c, t](Vec3& v) { v = {{c * v[0] - t * v[1], t * v[0] + c * v[1], v[2]}}; };
+    for (Vec3& r : s.packing.bodies.position) turn(r);
+    for (Vec3& v : s.packing.bodies.velocity) turn(v);
+    for (Vec3& w : s.packing.bodies.spin) turn(w);
+    for (Link<3>& l : s.packing.links) turn(l.tangential_force), turn(l.moment);
+    s.memory = {};
+    return s;
+  }
+  static std::vector<BodyLoad3> loads(const State<Spheres>& s) { return net_loads(s.packing); }
+  static double largest_force(const State<Spheres>& s) {
+    double scale = 0;
+    for (const Link<3>& l : s.packing.links) scale = std::max(scale, std::abs(l.normal_force));
+    return scale;
+  }
+  // As of disks.
+  static double angular_tolerance(const State<Spheres>&) { return 1e-3; }
+};
+
+using Systems = ::testing::Types<Disks, TriangleGrains, Spheres>;
+
+// The parts of a load, and of what the memory holds of one, side by side.
+inline std::vector<double> parts(const BodyLoad& b) { return {b.fx, b.fy, b.moment}; }
+inline std::vector<double> parts(const BodyLoad3& b) {
+  return {b.force[0], b.force[1], b.force[2], b.moment[0], b.moment[1], b.moment[2]};
+}
+inline std::vector<double> parts(const Vec2& force, double torque) { return {force[0], force[1], torque}; }
+inline std::vector<double> parts(const Vec3& force, const Vec3& torque) {
+  return {force[0], force[1], force[2], torque[0], torque[1], torque[2]};
+}
+
+// Angular momentum about the origin.
+inline double turning(const Bodies<2>& b, std::size_t k) {
+  return b.mass[k] * (b.position[k][0] * b.velocity[k][1] - b.position[k][1] * b.velocity[k][0]) +
+         b.inertia[k] * b.spin[k];
+}
+inline Vec3 turning(const Bodies<3>& b, std::size_t k) {
+  return b.mass[k] * cross(b.position[k], b.velocity[k]) + b.inertia[k] * b.spin[k];
+}
+inline double size_of(double x) { return std::abs(x); }
+inline double size_of(const Vec3& v) { return norm(v); }
 
 template <class System>
-State<System> marched(State<System> s, const CellControl<2>& control, std::int64_t steps, SolverOptions options = {}) {
+State<System> marched(State<System> s, const CellControl<System::dimension>& control, std::int64_t steps,
+                      SolverOptions options = {}) {
   Solver<System> solver(s, control, options);
   solver.run(steps);
   solver.snapshot(s);

@@ -13,6 +13,13 @@
 namespace isostat::systems {
 namespace {
 
+// Nothing around the bodies moves.
+template <class System>
+void stand_still(State<System>& s) {
+  if constexpr (requires { s.packing.walls; })
+    for (auto& wall : s.packing.walls) wall.velocity = {};
+}
+
 template <class System>
 class EverySystem : public ::testing::Test {};
 TYPED_TEST_SUITE(EverySystem, Systems);
@@ -38,7 +45,7 @@ TYPED_TEST(EverySystem, RestartsAsIfItHadRunStraight) {
   const TemporaryFolder folder;
   const std::string path = folder / "state.h5";
   SolverOptions watched;
-  watched.energies = true;
+  watched.energies = Fixture<TypeParam>::kLedger;
   for (const auto& v : Fixture<TypeParam>::variants(40)) {
     SCOPED_TRACE(v.name);
     Solver<TypeParam> straight(v.state, v.control, watched);
@@ -61,7 +68,7 @@ TYPED_TEST(EverySystem, IsNotChangedByWatching) {
     SCOPED_TRACE(v.name);
     const State<TypeParam> plain = marched(v.state, v.control, 120);
     SolverOptions watched;
-    watched.energies = true;
+    watched.energies = Fixture<TypeParam>::kLedger;
     Solver<TypeParam> solver(v.state, v.control, watched);
     State<TypeParam> seen = v.state;
     for (int k = 0; k < 120; ++k) {
@@ -90,34 +97,37 @@ TYPED_TEST(EverySystem, LoadsItsBodiesByItsLinks) {
   for (auto v : Fixture<TypeParam>::variants(40)) {
     SCOPED_TRACE(v.name);
     State<TypeParam> s = marched(v.state, v.control, 50);
-    std::fill(s.packing.bodies.velocity.begin(), s.packing.bodies.velocity.end(), Vec2{});
-    std::fill(s.packing.bodies.spin.begin(), s.packing.bodies.spin.end(), 0.0);
+    std::fill(s.packing.bodies.velocity.begin(), s.packing.bodies.velocity.end(), Vec<TypeParam::dimension>{});
+    std::fill(s.packing.bodies.spin.begin(), s.packing.bodies.spin.end(), Spin<TypeParam::dimension>{});
+    stand_still(s);
     s.memory = {}, s.cell_motion.strain_rate = {};
+    s.progress.started = false;              // the container rests
     Solver<TypeParam> solver(s, v.control);  // evaluates the forces of the state as it stands
     solver.snapshot(s);
-    const std::vector<BodyLoad> loads = Fixture<TypeParam>::loads(s);
+    const auto loads = Fixture<TypeParam>::loads(s);
     const double scale = Fixture<TypeParam>::largest_force(s);
     ASSERT_GT(scale, 1);
-    Vec2 sum{};
+    Vec<TypeParam::dimension> sum{};
     for (std::size_t k = 0; k < loads.size(); ++k) {
-      EXPECT_NEAR(s.memory.force[k][0], loads[k].fx, 1e-13 * scale);
-      EXPECT_NEAR(s.memory.force[k][1], loads[k].fy, 1e-13 * scale);
-      EXPECT_NEAR(s.memory.torque[k], loads[k].moment, 1e-13 * scale);
+      const std::vector<double> felt = parts(s.memory.force[k], s.memory.torque[k]), linked = parts(loads[k]);
+      for (std::size_t n = 0; n < felt.size(); ++n) EXPECT_NEAR(felt[n], linked[n], 1e-13 * scale);
       sum += s.memory.force[k];
     }
-    EXPECT_LT(norm(sum), 1e-12 * scale);
+    if (Fixture<TypeParam>::closed(s)) {
+      EXPECT_LT(norm(sum), 1e-12 * scale);
+    }
   }
 }
 
 TYPED_TEST(EverySystem, KeepsItsMomentum) {
   const auto momentum = [](const State<TypeParam>& s) {
-    Vec2 p{};
-    double about_origin = 0, size = 0;
+    Vec<TypeParam::dimension> p{};
+    Spin<TypeParam::dimension> about_origin{};
+    double size = 0;
     const auto& b = s.packing.bodies;
     for (std::size_t k = 0; k < b.size(); ++k) {
       p += b.mass[k] * b.velocity[k];
-      about_origin += b.mass[k] * (b.position[k][0] * b.velocity[k][1] - b.position[k][1] * b.velocity[k][0]) +
-                      b.inertia[k] * b.spin[k];
+      about_origin += turning(b, k);
       size += b.mass[k] * norm(b.velocity[k]);
     }
     return std::tuple(p, about_origin, size);
@@ -129,7 +139,7 @@ TYPED_TEST(EverySystem, KeepsItsMomentum) {
     const auto [after, turning_after, unused] = momentum(marched(v.state, v.control, 300));
     EXPECT_LT(norm(after - before), 1e-12 * size);
     if (!v.state.packing.cell) {
-      EXPECT_NEAR(turning_after, turning_before, Fixture<TypeParam>::angular_tolerance(v.state) * size);
+      EXPECT_LT(size_of(turning_after - turning_before), Fixture<TypeParam>::angular_tolerance(v.state) * size);
     }
   }
 }
@@ -141,7 +151,7 @@ TYPED_TEST(EverySystem, LooksTheSameFromEveryDirection) {
     SCOPED_TRACE(v.name);
     const State<TypeParam> turned = marched(Fixture<TypeParam>::turned(v.state, kAngle), v.control, 60);
     const State<TypeParam> straight = Fixture<TypeParam>::turned(marched(v.state, v.control, 60), kAngle);
-    std::map<std::int64_t, Vec2> place;
+    std::map<std::int64_t, Vec<TypeParam::dimension>> place;
     for (std::size_t k = 0; k < straight.packing.bodies.size(); ++k)
       place[straight.packing.bodies.id[k]] = straight.packing.bodies.position[k];
     for (std::size_t k = 0; k < turned.packing.bodies.size(); ++k)

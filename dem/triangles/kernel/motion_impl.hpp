@@ -75,31 +75,33 @@ ISOSTAT_INLINE DriftTally drift_in(const DriftInput& in) {
   return tally;
 }
 
-// Of the corners of one triangle outside an edge (x, y) -> (x + ux, y + uy) of the other, walked anticlockwise.
+// Whether the corners of a triangle are all further than `skin` outside an edge (x, y) -> (x + ux, y + uy) of the
+// other, walked anticlockwise.
 template <class V>
-ISOSTAT_INLINE V outside(V x, V y, V ux, V uy, const TriangleLanes<V>& t) {
+ISOSTAT_INLINE typename V::mask_type apart(V x, V y, V ux, V uy, const TriangleLanes<V>& t, V skin_squared) {
   V least = cross_lanes(t.x[0] - x, t.y[0] - y, ux, uy);
   for (int k = 1; k < 3; ++k) least = min(least, cross_lanes(t.x[k] - x, t.y[k] - y, ux, uy));
-  return least / sqrt(dot_lanes(ux, uy, ux, uy));
+  return least > V(0.0) && least * least > skin_squared * dot_lanes(ux, uy, ux, uy);
 }
 
 template <class V>
 ISOSTAT_INLINE void separations_in(const SeparationInput& in) {
   constexpr std::size_t width = V::size();
+  const V zero(0.0), skin_squared(in.skin * in.skin);
   for (std::size_t n = 0; n < in.count; n += width) {
     const TriangleLanes<V> a = load_triangles(in.rows, in.a + n, V());
     TriangleLanes<V> b = load_triangles(in.rows, in.b + n, V());
     const V ox(in.offset_x + n, stdx::element_aligned), oy(in.offset_y + n, stdx::element_aligned);
     for (int k = 0; k < 3; ++k) b.x[k] = b.x[k] + ox, b.y[k] = b.y[k] + oy;
-    V largest(-1e300);
+    V near(1.0);
     for (int e = 0; e < 3; ++e) {
       const int f = e == 2 ? 0 : e + 1;
-      largest = max(largest, outside<V>(a.x[e], a.y[e], a.x[f] - a.x[e], a.y[f] - a.y[e], b));
-      largest = max(largest, outside<V>(b.x[e], b.y[e], b.x[f] - b.x[e], b.y[f] - b.y[e], a));
+      near = select(apart<V>(a.x[e], a.y[e], a.x[f] - a.x[e], a.y[f] - a.y[e], b, skin_squared), zero, near);
+      near = select(apart<V>(b.x[e], b.y[e], b.x[f] - b.x[e], b.y[f] - b.y[e], a, skin_squared), zero, near);
     }
-    double gap[width];
-    largest.copy_to(gap, stdx::element_aligned);
-    for (std::size_t w = 0; w < width; ++w) in.near[n + w] = !(gap[w] > in.skin);
+    double flag[width];
+    near.copy_to(flag, stdx::element_aligned);
+    for (std::size_t w = 0; w < width; ++w) in.near[n + w] = flag[w] > 0;
   }
 }
 

@@ -17,6 +17,9 @@ namespace isostat::kernel {
 // What a row of a pack leaves behind for the second pass, in lanes.
 enum WorkSlot : std::size_t { kGradX, kGradY, kMomentA, kMomentB, kPointX, kPointY, kArea };
 
+// Memory answers late: a triangle is asked for so many packs before it is first needed.
+inline constexpr std::size_t kPacksAhead = 8;
+
 // Friction of one lane, a pair of grains in contact; gives the work of sliding [erg].
 ISOSTAT_INLINE double friction_of(const OverlapInput& in, const OverlapPack& pack, std::size_t lane, std::size_t place,
                                   double pressure, double virial[2]) {
@@ -66,6 +69,13 @@ ISOSTAT_INLINE OverlapTally overlap_forces_in(const OverlapInput& in) {
   V virial_x(0.0), virial_y(0.0);
   for (std::size_t p = in.begin; p < in.end; ++p) {
     const OverlapPack pack = in.packs[p];
+    if (p + kPacksAhead < in.end) {
+      const OverlapPack* soon = in.packs + p + kPacksAhead;
+      for (std::size_t k = soon->first_seen; k < soon[1].first_seen; ++k) {
+        __builtin_prefetch(in.rows + kCornerRow * std::size_t{in.seen[k]});
+        __builtin_prefetch(in.loads + kLoadRow * std::size_t{in.seen[k]}, 1);
+      }
+    }
     for (std::size_t lane = 0; lane < kLanes; lane += width) {
       const std::size_t place = kLanes * p + lane;
       const V offset_x(in.offset_x + place, stdx::element_aligned),

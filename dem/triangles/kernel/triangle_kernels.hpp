@@ -18,12 +18,14 @@ namespace isostat {
 struct OverlapPack {
   std::uint32_t first = 0;  // row r of lane l is the pair a[first + 8 r + l], b[...]
   std::uint32_t rows = 0;
+  std::uint32_t first_seen = 0;  // its triangles that no pack before it in its group has: from here on in `seen`
 };
 
 struct OverlapInput {
-  const OverlapPack* packs = nullptr;  // begin .. end
+  const OverlapPack* packs = nullptr;  // begin .. end, and one more
   std::size_t begin = 0, end = 0;
   const std::uint32_t *a = nullptr, *b = nullptr;         // slots
+  const std::uint32_t* seen = nullptr;                    // slots, each as a pack is the first of its group to have it
   const double* stiffness = nullptr;                      // [8 pack + lane] Y/L_c [g/(cm s)^2 ...]: pressure per area
   const double *offset_x = nullptr, *offset_y = nullptr;  // [cm] of grain b's image
   double* spring = nullptr;                               // [dyn] T of the lane; friction only

@@ -1,0 +1,31 @@
+// What came of an insertion, in numbers.
+#pragma once
+#include "dem/sample/insertion.hpp"
+#include "dem/sample/size_statistics.hpp"
+
+namespace isostat {
+
+struct InsertionReport {
+  std::size_t grains = 0, listed = 0;
+  double solid_fraction = 0, trials = 0;
+  bool reached = true;  // the wanted solid fraction
+  Exponent exponent;    // of the radii after growth, maximum likelihood
+  SizeHistogram sizes;  // of the same
+  PowerFit fit;         // of Eq. 1 to that histogram
+};
+
+template <int D>
+InsertionReport insertion_report(const InsertedGrains<D>& grains, const InsertionScene& scene, int bins = 10) {
+  InsertionReport r{grains.radius.size(),
+                    grains.work.listed,
+                    grains.solid_fraction,
+                    grains.trials,
+                    grains.reached,
+                    likely_exponent(grains.radius, scene.radius_min, scene.radius_max),
+                    size_histogram(grains.radius, scene.radius_min, scene.radius_max, bins),
+                    {}};
+  r.fit = fit_power_law(r.sizes);
+  return r;
+}
+
+}  // namespace isostat

@@ -1,0 +1,193 @@
+#include "dem/spheres/sample.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <stdexcept>
+
+#include "dem/files/packing_file.hpp"
+#include "dem/input_error.hpp"
+#include "dem/sample/random_placement.hpp"
+#include "dem/sample/size_distribution.hpp"
+#include "dem/scene/check.hpp"
+#include "dem/scene/text.hpp"
+#include "dem/solver/random.hpp"
+#include "dem/spheres/time_step.hpp"
+#include "dem/state/touching.hpp"
+
+namespace isostat {
+namespace {
+
+constexpr int kMostTries = 20000;            // per sphere
+constexpr double kMostOverlapAtStart = 0.3;  // [R_i + R_j] beyond, Hertz's law says nothing
+
+State<Spheres> without_bodies(const Scene& scene, std::uint64_t seed) {
+  State<Spheres> state;
+  state.scene = scene;
+  state.seed = seed;
+  state.law = resolve(scene.sphere_law);
+  return state;
+}
+
+double smallest_radius(const Bodies<3>& b) { return *std::min_element(b.radius.begin(), b.radius.end()); }
+
+void set_time_step(State<Spheres>& s) {
+  const double density = s.scene.sphere_grains.density;
+  s.time_step = s.scene.step.fraction * contact_time(s.law, smallest_radius(s.packing.bodies), density);
+  if (s.packing.cell) s.cell_motion.reference_length = s.packing.cell->length;
+}
+
+// What a scene asks of the cell, of a file that has none.
+void refuse_without_cell(const Scene& scene, const std::string& path) {
+  std::vector<Fault> faults;
+  for (std::size_t k = 0; k < scene.stages.size(); ++k)
+    for (const std::string& key : cell_keys(scene.stages[k], k))
+      faults.push_back({"scene", 0, key, "", "needs a periodic cell; the packing of " + path + " is isolated"});
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+// grains.file: bodies, cell and springs of a packing under the scene's law, at time 0.
+State<Spheres> state_from_file(const Scene& scene, std::uint64_t seed) {
+  const std::string& path = scene.sphere_grains.file;
+  PackingFile file = read_packing(path);
+  if (!file.packing_3d) throw InputError(path, 0, "grains.file", path, "a packing of spheres, in space, is wanted");
+  State<Spheres> state = without_bodies(scene, seed);
+  static_cast<Packing<3>&>(state.packing) = std::move(*file.packing_3d);
+  Packing<3>& packing = state.packing;
+  if (packing.bodies.size() == 0) throw InputError(path, 0, "grains.file", path, "it holds no grain");
+  if (!packing.cell) refuse_without_cell(scene, path);
+  if (!file.links_given) packing.links.clear();
+  set_sphere_inertia(packing.bodies, scene.sphere_grains.density);
+  const Bodies<3>& b = packing.bodies;
+  for (const Link<3>& l : touching_links(packing, 0.0)) {
+    const auto i = static_cast<std::size_t>(l.i), j = static_cast<std::size_t>(l.j);
+    if (l.gap < -kMostOverlapAtStart * (b.radius[i] + b.radius[j]))
+      throw InputError(path, 0, "grains.file", path,
+                       "grains " + std::to_string(b.id[i]) + " and " + std::to_string(b.id[j]) + " overlap by " +
+                           std::to_string(-l.gap) + " a; at most 0.3 of the sum of radii is allowed");
+  }
+  set_time_step(state);
+  return state;
+}
+
+void add_grains(SpherePacking& p, const InsertedGrains<3>& grains, const Vec3& at, std::int32_t group) {
+  Bodies<3>& b = p.bodies;
+  const std::size_t before = b.size();
+  b.resize(before + grains.radius.size());
+  p.group.resize(b.size(), group);
+  for (std::size_t k = before; k < b.size(); ++k) {
+    b.id[k] = static_cast<std::int64_t>(k);
+    b.position[k] = at + grains.position[k - before];
+    b.radius[k] = grains.radius[k - before];
+  }
+}
+
+State<Spheres> inserted_spheres(const Scene& scene, std::uint64_t seed) {
+  const SphereGrainsScene& g = scene.sphere_grains;
+  State<Spheres> state = without_bodies(scene, seed);
+  SpherePacking& p = state.packing;
+  const InsertionScene insertion = insertion_of(g);
+  switch (g.arrangement) {
+    case SphereArrangement::random:
+      throw std::logic_error("inserted_spheres: grains.arrangement");
+    case SphereArrangement::insertion:
+      p.cell = PeriodicCell<3>{{{g.edge, g.edge, g.edge}}};
+      add_grains(p, insert_grains<3>(insertion, seed), {}, 0);
+      p.group.clear();
+      break;
+    case SphereArrangement::soft_wall:
+      add_soft_particle(p, insert_grains<3>(insertion, seed), {}, kFirstSoft);
+      p.walls.push_back(soft_partner_wall(g.shell_radius));
+      break;
+    case SphereArrangement::soft_pair:
+      add_soft_particle(p, insert_grains<3>(insertion, seed), {}, kFirstSoft);
+      add_soft_particle(p, insert_grains<3>(insertion, seed + kSecondStream), (2 * g.shell_radius) * kSoftApproach,
+                        kSecondSoft);
+      break;
+  }
+  set_sphere_inertia(p.bodies, g.density);
+  set_time_step(state);
+  return state;
+}
+
+}  // namespace
+
+InsertionScene insertion_of(const SphereGrainsScene& g) {
+  InsertionScene i;
+  i.room = g.arrangement == SphereArrangement::insertion ? InsertionRoom::box : InsertionRoom::shell;
+  i.shell_radius = g.shell_radius;
+  i.box = {g.edge, g.edge, g.edge};
+  i.radius_min = g.diameter_min / 2, i.radius_max = g.diameter_max / 2, i.exponent = g.exponent.value_or(0);
+  i.volume_factor = g.volume_factor, i.trials = g.trials;
+  return i;
+}
+
+void add_soft_particle(SpherePacking& p, const InsertedGrains<3>& grains, const Vec3& centre, std::int32_t group) {
+  add_grains(p, grains, centre, group);
+  SphereWall shell;
+  shell.shape = WallShape::shell, shell.point = centre, shell.radius = grains.enclosure.shell_radius;
+  shell.group = group;
+  p.walls.push_back(shell);
+}
+
+SphereWall soft_partner_wall(double shell_radius) {
+  SphereWall wall;
+  wall.point = shell_radius * kSoftApproach, wall.normal = -1.0 * kSoftApproach;
+  return wall;
+}
+
+void set_sphere_inertia(Bodies<3>& b, double density) {
+  for (std::size_t k = 0; k < b.size(); ++k) {
+    const double r = b.radius[k];
+    b.mass[k] = density * (4.0 / 3.0 * std::numbers::pi * (r * r * r));
+    b.inertia[k] = 0.4 * (b.mass[k] * (r * r));
+  }
+}
+
+State<Spheres> initial_spheres(const Scene& scene, std::uint64_t seed) {
+  const SphereGrainsScene& g = scene.sphere_grains;
+  if (!g.file.empty()) return state_from_file(scene, seed);
+  if (g.arrangement != SphereArrangement::random) return inserted_spheres(scene, seed);
+  State<Spheres> state = without_bodies(scene, seed);
+  Random random(seed);
+  const auto n = static_cast<std::size_t>(g.count);
+  std::vector<double> diameters(n);
+  double volume = 0;
+  const SizeDistribution sizes{g.diameter_min, g.diameter_max, g.exponent.value_or(0)};
+  for (double& d : diameters) {
+    d = sizes.draw(random);
+    volume += std::numbers::pi / 6 * (d * d * d);
+  }
+  const double edge = std::cbrt(volume / g.solid_fraction);
+  state.packing.cell = PeriodicCell<3>{{{edge, edge, edge}}};
+
+  Bodies<3>& b = state.packing.bodies;
+  b.resize(n);
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t p, std::size_t q) { return diameters[p] > diameters[q]; });
+  const Frame<3> frame{{}, state.packing.cell->length, true};
+  Placement<3> placement(frame, diameters[order[0]], state.law.attraction_range, n);
+  for (const std::size_t k : order) {
+    b.id[k] = static_cast<std::int64_t>(k);
+    b.radius[k] = diameters[k] / 2;
+    int tries = 0;
+    Vec3 r;
+    do {
+      if (++tries > kMostTries)
+        throw InputError("scene", 0, "grains.solid_fraction", real_text(g.solid_fraction),
+                         "random placement without overlap found no room; lower it (0.3 is safe)");
+      for (int a = 0; a < 3; ++a) r[a] = random.uniform() * edge;
+    } while (!placement.free(r, b.radius[k], b));
+    b.position[k] = r;
+    placement.add(r, k);
+  }
+  set_sphere_inertia(b, g.density);
+  set_time_step(state);
+  state.random_counter = random.counter();
+  return state;
+}
+
+}  // namespace isostat

@@ -1,0 +1,52 @@
+#include "dem/spheres/series.hpp"
+
+#include <algorithm>
+
+#include "dem/spheres/certificate.hpp"
+#include "dem/state/clusters.hpp"
+#include "dem/state/solid_fraction.hpp"
+
+namespace isostat {
+namespace {
+
+double kinetic_energy(const Bodies<3>& b) {
+  double sum = 0;
+  for (std::size_t k = 0; k < b.size(); ++k)
+    sum += 0.5 * (b.mass[k] * dot(b.velocity[k], b.velocity[k]) + b.inertia[k] * dot(b.spin[k], b.spin[k]));
+  return sum;
+}
+
+}  // namespace
+
+std::vector<SeriesColumn> series_columns(const State<Spheres>& s, bool) {
+  const SpherePacking& p = s.packing;
+  std::vector<SeriesColumn> columns{{"t", s.time}};
+  const auto add = [&columns](std::initializer_list<SeriesColumn> more) {
+    columns.insert(columns.end(), more.begin(), more.end());
+  };
+  if (p.cell) {
+    const Vec3 stress = diagonal(measured_stress(p)), rate = s.cell_motion.strain_rate;
+    add({{"Phi", solid_fraction(p.bodies, p.cell)},
+         {"L1", p.cell->length[0]},
+         {"L2", p.cell->length[1]},
+         {"L3", p.cell->length[2]},
+         {"sigma11", stress[0]},
+         {"sigma22", stress[1]},
+         {"sigma33", stress[2]},
+         {"strain_rate1", rate[0]},
+         {"strain_rate2", rate[1]},
+         {"strain_rate3", rate[2]}});
+  }
+  const auto grains = static_cast<double>(std::max<std::size_t>(p.bodies.size(), 1));
+  const std::size_t interactions = s.law.attraction > 0 ? p.links.size() : loaded_contacts(s);
+  add({{"kinetic_energy", kinetic_energy(p.bodies)},
+       {"z", 2 * static_cast<double>(interactions) / grains},
+       {"clusters", static_cast<double>(count_clusters(p))},
+       {"max_force", s.certificate.max_force},
+       {"max_moment", s.certificate.max_moment}});
+  if (p.cell) add({{"pressure_error", s.certificate.pressure_error}});
+  add({{"kinetic_energy_per_grain", s.certificate.kinetic_energy_per_grain}});
+  return columns;
+}
+
+}  // namespace isostat

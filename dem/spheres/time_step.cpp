@@ -1,0 +1,36 @@
+#include "dem/spheres/time_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "dem/spheres/at_rest.hpp"
+
+namespace isostat {
+namespace {
+
+double mass_of(double radius, double density) {
+  return 4.0 / 3.0 * std::numbers::pi * density * radius * radius * radius;
+}
+
+}  // namespace
+
+double stiffness_of_equal(const SphereLaw& law, double radius, double depth) {
+  return normal_stiffness(law, pair_stiffness(law, radius, radius), -depth * radius);
+}
+
+double contact_time(const SphereLaw& law, double radius, double density) {
+  return std::sqrt(mass_of(radius, density) / stiffness_of_equal(law, radius));
+}
+
+double critical_fraction(const SphereLaw& law, double radius, double density) {
+  const double mass = mass_of(radius, density), normal = stiffness_of_equal(law, radius);
+  const double tangential =
+      law.friction > 0 ? tangential_stiffness(law, pair_stiffness(law, radius, radius), -kReferenceOverlap * radius)
+                       : 0.0;
+  const double translation = 8 * (normal + 2 * tangential) / mass;
+  const double rotation = 16 * (tangential + law.rolling_stiffness / (radius * radius)) / (0.4 * mass);
+  return 2 / std::sqrt(std::max(translation, rotation)) * std::sqrt(normal / mass);
+}
+
+}  // namespace isostat

@@ -1,0 +1,20 @@
+// The time step of spheres: dt = step.fraction sqrt(m / k) of the smallest grain, k the normal stiffness of its contact
+// with another of its kind. Hertz: at an overlap of a tenth of its radius, more than a packing at rest has.
+#pragma once
+#include "dem/spheres/sphere_law.hpp"
+
+namespace isostat {
+
+inline constexpr double kReferenceOverlap = 0.1;  // [radius]
+
+// dN/dd [F0/a] of two equal spheres of this radius at the overlap `depth` [radius].
+double stiffness_of_equal(const SphereLaw& law, double radius, double depth = kReferenceOverlap);
+
+// sqrt(m / k) [T0].
+double contact_time(const SphereLaw& law, double radius, double density);
+
+// Largest stable step over contact_time(), dt < 2 / omega_max with omega_max bounded for a grain among at most twelve
+// neighbours as small: translation omega^2 = 2 * 12 (K_N + 2 K_T) / (3 m), rotation 2 * 8 (K_T R^2 + K_r) / I.
+double critical_fraction(const SphereLaw& law, double radius, double density);
+
+}  // namespace isostat
