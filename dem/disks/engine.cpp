@@ -358,7 +358,7 @@ void DiskEngine::snapshot_bodies(State<Disks>& s) const {
 std::vector<std::size_t> DiskEngine::touching_walls() const {
   std::vector<std::size_t> touching;
   walls_.for_each([&](std::size_t k, std::int32_t i, std::int32_t j) {
-    const double radius = bodies_.radius(static_cast<std::size_t>(i)), distance = norm(branch(i, j, kNoImage, {}));
+    const double radius = bodies_.radius(static_cast<std::size_t>(i)), distance = norm(branch(i, j, kNoImage<2>, {}));
     const double gap = distance - radius;
     if (gap < 0 || (law_.attraction > 0 && gap < law_.attraction_range)) touching.push_back(k);
   });

@@ -62,7 +62,7 @@ class DiskEngine {
       visit(self.lists_.columns(), k, i, j, shift);
     });
     self.walls_.for_each(
-        [&](std::size_t k, std::int32_t i, std::int32_t j) { visit(self.walls_.columns(), k, i, j, kNoImage); });
+        [&](std::size_t k, std::int32_t i, std::int32_t j) { visit(self.walls_.columns(), k, i, j, kNoImage<2>); });
   }
   Vec2 branch(std::int32_t i, std::int32_t j, std::uint8_t shift, const Cell& cell) const;
   void brake_ledger(const MotionStep<2>& step, double drag);

@@ -63,7 +63,7 @@ class TriangleEngine {
     double vx, vy, spin;
   };
   SlotMotion full_step_motion(std::size_t slot) const;
-  void brake_ledger(const MotionStep& step);
+  void brake_ledger(const MotionStep<2>& step);
   void add_gear_drag();
   void add_works();
   void set_work_due();

@@ -19,7 +19,7 @@ TriangleEngine::SlotMotion TriangleEngine::full_step_motion(std::size_t k) const
 
 // Of a leapfrog step: the impulse of what keeps only a part of the velocity, times the mean of the velocities before
 // and after. The part due to the rate of the cell is the cell's work.
-void TriangleEngine::brake_ledger(const MotionStep& step) {
+void TriangleEngine::brake_ledger(const MotionStep<2>& step) {
   if (step.keep[0] == 1 && step.keep[1] == 1) return;
   const auto& s = store_;
   const double drag = drag_ * dt_;
