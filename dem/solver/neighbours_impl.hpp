@@ -13,7 +13,7 @@ namespace isostat {
 namespace lists {
 
 // Tuning, in the regime of METHODS.md "The disk engine"; none of these enters a result.
-inline constexpr double kOuterSkin = 0.35;          // [mean diameter]
+inline constexpr double kOuterSkin = 0.35;          // [mean diameter], of a broad distribution [smallest diameter]
 inline constexpr double kInnerSteps = 100;          // steps that the inner skin should last
 inline constexpr double kSmallestInnerSkin = 5e-4;  // [smallest diameter]
 inline constexpr double kLargestInnerSkin = 0.3;    // [outer skin]
@@ -70,7 +70,8 @@ int NeighbourLists<Columns>::chunk_of(std::int32_t body) const {
 // No pair may be listed through its second image: in a tiny cell the skin is what the cell leaves.
 template <class Columns>
 double NeighbourLists<Columns>::outer_skin_for(const Cell& cell) const {
-  double wanted = lists::kOuterSkin * mean_diameter_;
+  // Among many sizes the small grains are the many: a skin of the mean would list most of their second neighbours.
+  double wanted = lists::kOuterSkin * (broad() ? smallest_diameter_ : mean_diameter_);
   if constexpr (requires { Columns::kOuterSkin; }) wanted = Columns::kOuterSkin * mean_diameter_;
   return cell ? std::min(wanted,
                          *std::min_element(cell->length.c.begin(), cell->length.c.end()) - largest_diameter_ - range_)

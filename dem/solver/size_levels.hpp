@@ -1,7 +1,8 @@
-// Near pairs among bodies of very different sizes. Each factor of two in diameter has a grid of its own, as wide as its
-// bodies reach. Between two levels either every body of the finer looks for partners in the coarser grid, in the few
-// cells that its reach touches, or, where the larger bodies are few, they look in the finer grid, whose cells are read
-// in rows: the inside of a large body is empty and costs nothing. What is cheaper follows from the numbers of bodies.
+// Near pairs among bodies of very different sizes. Each factor of two in diameter, counted from the smallest, has a grid
+// of its own, as wide as its bodies reach. Between two levels either every body of the finer looks for partners in the
+// coarser grid, in the few cells that its reach touches, or, where the larger bodies are few, they look in the finer
+// grid, whose cells are read in rows: the inside of a large body is empty and costs nothing. What is cheaper follows
+// from the numbers of bodies.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -23,10 +24,10 @@ class SizeLevels {
   SizeLevels(const std::optional<PeriodicCell<D>>& cell, const std::vector<Vec<D>>& position,
              const std::vector<double>& radius, double beyond)
       : cell_(cell), position_(position), radius_(radius), beyond_(beyond), level_(position.size()) {
-    const double largest = *std::max_element(radius.begin(), radius.end());
+    const double smallest = *std::min_element(radius.begin(), radius.end());
     std::vector<std::vector<std::int32_t>> bodies(kMostLevels);
     for (std::size_t k = 0; k < position.size(); ++k) {
-      level_[k] = std::clamp(static_cast<int>(std::log2(largest / radius[k])), 0, kMostLevels - 1);
+      level_[k] = std::clamp(static_cast<int>(std::log2(radius[k] / smallest)), 0, kMostLevels - 1);
       bodies[static_cast<std::size_t>(level_[k])].push_back(static_cast<std::int32_t>(k));
     }
     const Frame<D> frame = frame_of(cell, position);
@@ -34,7 +35,7 @@ class SizeLevels {
     for (const std::vector<std::int32_t>& of_level : bodies) levels_.emplace_back(frame, of_level, *this);
     for (std::size_t from = 0; from < kMostLevels; ++from)
       for (std::size_t in = 0; in < kMostLevels; ++in)
-        searches_[from][in] = from >= in ? cost(from, in) <= cost(in, from) : cost(from, in) < cost(in, from);
+        searches_[from][in] = from <= in ? cost(from, in) <= cost(in, from) : cost(from, in) < cost(in, from);
   }
 
   // visit(i, j, s): body j, moved by s cells, is near body i. Each pair of bodies and image once.
@@ -53,7 +54,7 @@ class SizeLevels {
   }
 
  private:
-  static constexpr int kMostLevels = 20;         // beyond a size ratio of a million the finest grid holds the rest
+  static constexpr int kMostLevels = 20;         // beyond a size ratio of a million the coarsest grid holds the rest
   static constexpr double kRounding = 1 + 1e-9;  // of a reach that ends on the edge of a grid cell
 
   struct Member {
@@ -64,12 +65,16 @@ class SizeLevels {
   struct Level {
     CellGrid<D> grid;
     double largest_radius = 0;
+    std::array<double, D> width{};    // [a] of a column; 0 in a flat frame
+    double per_width = 0;             // along the first axis
     std::vector<std::int32_t> begin;  // of cell c: members[begin[c] .. begin[c + 1])
     std::vector<Member> members;
 
     Level(const Frame<D>& frame, const std::vector<std::int32_t>& bodies, const SizeLevels& all)
         : grid(frame, reach_of(bodies, all), bodies.size()) {
       if (bodies.empty()) return;
+      for (int a = 0; a < D; ++a) width[static_cast<std::size_t>(a)] = frame.length[a] > 0 ? grid.width(a) : 0.0;
+      per_width = width[0] > 0 ? 1 / width[0] : 0.0;
       begin.assign(grid.size() + 1, 0), members.resize(bodies.size());
       std::vector<std::size_t> cell(bodies.size());
       for (std::size_t n = 0; n < bodies.size(); ++n) {
@@ -112,36 +117,45 @@ class SizeLevels {
         const auto whole = [n](double x) { return static_cast<int>(std::clamp(x, -1.0 * n, 2.0 * n - 1) + n) - n; };
         box.low[u] = whole(grid.coordinate(ri[a] - reach, a)), box.high[u] = whole(grid.coordinate(ri[a] + reach, a));
         if (!all.cell_) box.low[u] = std::max(box.low[u], 0), box.high[u] = std::min(box.high[u], n - 1);
+        box.at[u] = grid.coordinate(ri[a], a);
         if constexpr (kOwn) box.own[u] = grid.column(ri[a], a);
       }
-      rows<D - 1, kOwn>(i, all, visit, box, 0, {}, {}, kOwn);
+      rows<D - 1, kOwn>(i, all, visit, box, reach * reach, 0, {}, {}, kOwn);
     }
 
     struct Box {
       std::array<int, D> low, high, own;
+      std::array<double, D> at;  // the body, in columns
     };
 
-    // Axes from the last to the first. `level_with`: so far the columns are those of the body's own cell.
+    // Axes from the last to the first. `rest`: the squared reach less the squared distance of the columns so far.
+    // `level_with`: so far the columns are those of the body's own cell.
     template <int kAxis, bool kOwn, class Visit>
-    void rows(std::size_t i, const SizeLevels& all, Visit& visit, const Box& box, std::size_t index,
+    void rows(std::size_t i, const SizeLevels& all, Visit& visit, const Box& box, double rest, std::size_t index,
               const Vec<D>& offset, ImageShift<D> shift, bool level_with) const {
       const int n = grid.count(kAxis);
       constexpr auto u = static_cast<std::size_t>(kAxis);
       const int low = kOwn && level_with ? box.own[u] : box.low[u];
       if constexpr (kAxis > 0) {
         for (int c = low; c <= box.high[u]; ++c) {
+          const double away = width[u] * std::max({0.0, c - box.at[u], box.at[u] - (c + 1)});
+          if (away * away > rest) continue;
           const int s = c < 0 ? -1 : c >= n ? 1 : 0;
           shift[u] = s;
           Vec<D> moved = offset;
           if (s != 0) moved[kAxis] = s * all.cell_->length[kAxis];
           rows<kAxis - 1, kOwn>(
-              i, all, visit, box,
+              i, all, visit, box, rest - away * away,
               (index + static_cast<std::size_t>(c - s * n)) * static_cast<std::size_t>(grid.count(kAxis - 1)), moved,
               shift, level_with && c == box.own[u]);
         }
       } else {
-        for (int s = low < 0 ? -1 : 0; s * n <= box.high[u]; ++s) {
-          const int first = std::max(low, s * n), last = std::min(box.high[u], s * n + n - 1);
+        const double half = std::sqrt(rest) * per_width + kRounding - 1;  // in columns
+        const auto whole = [n](double x) { return static_cast<int>(std::clamp(x, -1.0 * n, 2.0 * n - 1) + n) - n; };
+        const int begins = std::max(low, whole(box.at[u] - half)),
+                  ends = std::min(box.high[u], whole(box.at[u] + half));
+        for (int s = begins < 0 ? -1 : 0; s * n <= ends; ++s) {
+          const int first = std::max(begins, s * n), last = std::min(ends, s * n + n - 1);
           if (first > last) continue;
           shift[u] = s;
           Vec<D> moved = offset;

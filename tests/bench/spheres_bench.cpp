@@ -1,6 +1,7 @@
 // Speed of the step of spheres on dense static packings, by instruction set: million grain-steps per CPU second and the
 // time of each stage [ns a grain-step].
-//   spheres_bench PACKING.net... [--law KEYWORD] [--copies N] [--steps N] [--threads N] [--rebuild] [--shell]
+//   spheres_bench PACKING.net... [--law KEYWORD] [--copies N] [--steps N] [--threads N] [--rebuild] [--shell] [--isa
+//   NAME]
 // A packing is read as grains in a periodic cell, put N times beside itself along each edge (--copies N), and relaxed
 // for some steps under Hertz and Mindlin's law with E = 1e6, nu = .3, mu = .3, zeta = .3, density 1. KEYWORD: friction
 // (default), frictionless, rolling. --rebuild: the outer list anew every 20 steps, as in a flow. --shell: the
@@ -22,7 +23,7 @@ using namespace isostat;
 namespace {
 
 struct Options {
-  std::string law = "friction";
+  std::string law = "friction", isa;
   int copies = 1, threads = 1;
   std::int64_t steps = 0;
   bool rebuild = false, shell = false;
@@ -152,6 +153,8 @@ int main(int count, char** words) {
       o.threads = std::stoi(value());
     else if (word == "--steps")
       o.steps = std::stoll(value());
+    else if (word == "--isa")
+      o.isa = value();
     else if (word == "--shell")
       o.shell = true;
     else if (word == "--rebuild")
@@ -170,6 +173,6 @@ int main(int count, char** words) {
     settle.run(500);
     settle.snapshot(s);
     for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512})
-      if (isa <= best_isa()) measure(file, s, isa, o);
+      if (isa <= best_isa() && (o.isa.empty() || o.isa == name(isa))) measure(file, s, isa, o);
   }
 }
