@@ -261,6 +261,7 @@ struct Fixture<Spheres> {
     oracle::RandomSpheres r;
     r.count = count, r.law = law, r.cell = room != "no cell" && room != "walls";
     r.room = 0.5;
+    if (!r.cell) r.speed = 0.3;  // else they have parted before the run ends
     Variant<Spheres> v{oracle::words(law) + ", " + room, random_state(r), {}};
     v.state.scene.system = SceneSystem::spheres;
     if (room == "free cell") {
