@@ -7,6 +7,7 @@
 
 #include "analysis/link_network.hpp"
 #include "dem/disks/disks.hpp"
+#include "dem/spheres/spheres.hpp"
 #include "dem/state/packing.hpp"
 
 namespace isostat {
@@ -30,8 +31,9 @@ struct AnalysisOptions {
 struct AnalysisInput {
   std::string path;
   State<Disks> state;  // a network or foreign packing is a state without law; walls last (put_free_first)
-  std::optional<Packing<3>> packing_3d;  // a 3D network or foreign packing; `state` then has no grains
-  bool links_given = false;              // the file lists contacts (a state always does); false: found by touching
+  std::optional<Packing<3>> packing_3d;        // a 3D network or foreign packing; `state` then has no grains
+  std::optional<State<Spheres>> sphere_state;  // beside packing_3d, of a state: law, walls, groups; no memory
+  bool links_given = false;  // the file lists contacts (a state always does); false: found by touching
   std::optional<State<TriangleGrains>> triangles;  // a packing of triangles; `state` then has no grains
   OwnedNetwork triangle_links;                     // of its triangles, see set_triangles()
 

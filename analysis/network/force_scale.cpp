@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dem/disks/certificate.hpp"
+#include "dem/spheres/certificate.hpp"
 #include "dem/triangles/certificate.hpp"
 
 namespace isostat {
@@ -37,7 +38,18 @@ ForceReading read_foreign(const Packing<D>& packing) {
 
 }  // namespace
 
+ForceReading read_forces(const State<Spheres>& state) {
+  if (!state.law.known()) return read_foreign(state.packing);
+  ForceReading reading;
+  reading.known = reading.law_known = true;
+  reading.cohesive = state.law.attraction > 0;
+  reading.scale = force_scale(state.law, state.imposed_stress);
+  reading.threshold = kLoadTolerance * reading.scale;
+  return reading;
+}
+
 ForceReading read_forces(const AnalysisInput& input) {
+  if (input.sphere_state) return read_forces(*input.sphere_state);
   if (input.packing_3d) return read_foreign(*input.packing_3d);
   if (input.triangles) {  // forces follow from the positions
     ForceReading reading;
