@@ -19,8 +19,11 @@ NetworkLaw AnalysisInput::network_law(const AnalysisOptions& options) const {
   if (options.law) return *options.law;
   if (triangles) return triangles->law.friction > 0 ? NetworkLaw::friction : NetworkLaw::frictionless;
   if (!has_law()) return NetworkLaw::friction;
-  if (!(state.law.friction > 0)) return NetworkLaw::frictionless;
-  return state.law.rolling_friction > 0 ? NetworkLaw::rolling : NetworkLaw::friction;
+  const auto rows = [](const auto& law) {
+    if (!(law.friction > 0)) return NetworkLaw::frictionless;
+    return law.rolling_friction > 0 ? NetworkLaw::rolling : NetworkLaw::friction;
+  };
+  return spheres_state ? rows(spheres_state->law) : rows(state.law);
 }
 
 }  // namespace isostat

@@ -4,8 +4,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "analysis/link_network.hpp"
+#include "analysis/sphere_network.hpp"
 #include "dem/disks/disks.hpp"
 #include "dem/spheres/spheres.hpp"
 #include "dem/state/packing.hpp"
@@ -25,14 +27,16 @@ struct AnalysisOptions {
   bool prestress = false;               // --prestress: modes of the full tangent, too
   bool near_null = false;               // --near-null: near-null singular values of G whatever its size
   int most_vectors = 20;                // --vectors: of each basis of the section bases
+  std::vector<double> stiffness;        // --stiffness: K_N, K_T, K_R of a packing without a law, as given
   double k_max = 0;                     // --k-max [1/length]; 0: the section's default
 };
 
 struct AnalysisInput {
   std::string path;
   State<Disks> state;  // a network or foreign packing is a state without law; walls last (put_free_first)
-  std::optional<Packing<3>> packing_3d;        // a 3D network or foreign packing; `state` then has no grains
-  std::optional<State<Spheres>> sphere_state;  // beside packing_3d, of a state: law, walls, groups; no memory
+  std::optional<Packing<3>> packing_3d;  // a packing in space; `state` then has no grains
+  std::optional<State<Spheres>>
+      spheres_state;         // that it comes from: law and walls, its bodies and links are moved out. None: no law
   bool links_given = false;  // the file lists contacts (a state always does); false: found by touching
   std::optional<State<TriangleGrains>> triangles;  // a packing of triangles; `state` then has no grains
   OwnedNetwork triangle_links;                     // of its triangles, see set_triangles()
@@ -41,15 +45,17 @@ struct AnalysisInput {
 
   // Of disks; of triangles: the triangles and their beams, free ones first.
   const Packing<2>& packing() const { return triangles ? triangle_links.packing : state.packing; }
+  SphereNetwork spheres() const { return *packing_3d; }
   LinkNetwork network() const { return triangles ? triangle_links.view() : LinkNetwork(state.packing); }
   // It knows its law. Disks: it comes from a run of the solver and is in reduced units; false for a foreign packing
   // kept as .h5. Triangles always do, a network that of triangle_network_law().
-  bool has_law() const { return triangles ? triangles->law.modulus > 0 : state.law.normal_stiffness > 0; }
+  bool has_law() const {
+    if (packing_3d) return spheres_state.has_value();
+    return triangles ? triangles->law.modulus > 0 : state.law.normal_stiffness > 0;
+  }
   bool has_cell() const { return packing_3d ? packing_3d->cell.has_value() : packing().cell.has_value(); }
   std::size_t grains() const {
-    return packing_3d  ? packing_3d->bodies.size()
-           : triangles ? triangles->packing.grains.size()
-                       : count_free(packing());
+    return packing_3d ? count_free(*packing_3d) : triangles ? triangles->packing.grains.size() : count_free(packing());
   }
   NetworkLaw network_law(const AnalysisOptions& options) const;
 };

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "analysis/free_first.hpp"
 #include "dem/triangles/at_rest.hpp"
 #include "dem/triangles/touching_triangles.hpp"
 #include "geometry/base/index.hpp"
@@ -54,14 +55,6 @@ std::vector<AreaLink> area_links(const TrianglePacking& p, const std::vector<Tri
   return links;
 }
 
-template <class T>
-void permute(std::vector<T>& values, const std::vector<std::int32_t>& order) {
-  std::vector<T> sorted;
-  sorted.reserve(values.size());
-  for (const std::int32_t k : order) sorted.push_back(values[idx(k)]);
-  values = std::move(sorted);
-}
-
 }  // namespace
 
 LinkNetwork::LinkNetwork(const Packing<2>& p) : packing(p), free(static_cast<std::int32_t>(count_free(p))) {
@@ -69,17 +62,7 @@ LinkNetwork::LinkNetwork(const Packing<2>& p) : packing(p), free(static_cast<std
     if (!isostat::is_free(p.part, k)) throw std::invalid_argument("walls come after the free bodies of a network");
 }
 
-void put_free_first(Packing<2>& p) {
-  if (p.part.empty()) return;
-  std::vector<std::int32_t> order(p.bodies.size()), place(order.size());
-  for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<std::int32_t>(k);
-  std::stable_partition(order.begin(), order.end(), [&](std::int32_t k) { return is_free(p.part, idx(k)); });
-  for (std::size_t k = 0; k < order.size(); ++k) place[idx(order[k])] = static_cast<std::int32_t>(k);
-  Bodies<2>& b = p.bodies;
-  permute(b.id, order), permute(b.position, order), permute(b.velocity, order), permute(b.spin, order);
-  permute(b.radius, order), permute(b.mass, order), permute(b.inertia, order), permute(p.part, order);
-  for (Link<2>& l : p.links) l.i = place[idx(l.i)], l.j = place[idx(l.j)];
-}
+void put_free_first(Packing<2>& packing) { put_free_bodies_first(packing); }
 
 OwnedNetwork triangle_network(const TrianglePacking& p, const std::vector<Triangle>& corners, const TriangleLaw& law) {
   OwnedNetwork n;

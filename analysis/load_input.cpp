@@ -15,10 +15,12 @@ AnalysisInput load_input(const std::string& path, const AnalysisOptions& options
   input.state.memory = {};  // of the solver; it knows the bodies by their order
   put_free_first(input.state.packing);
   input.packing_3d = std::move(file.packing_3d);
-  if (file.spheres) {
-    input.sphere_state = std::move(file.spheres);
-    input.sphere_state->memory = {};
+  if (file.spheres && file.spheres->law != SphereLaw{}) {
+    input.spheres_state = std::move(file.spheres);
+    static_cast<Packing<3>&>(input.spheres_state->packing) = {};  // walls stay
+    input.spheres_state->memory = {};
   }
+  if (input.packing_3d) put_free_first(*input.packing_3d);
   input.links_given = file.links_given;
   if (file.triangles) input.set_triangles(std::move(*file.triangles), file.corners);
   if (options.cell_free && !input.has_cell())

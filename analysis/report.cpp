@@ -23,41 +23,51 @@ const std::vector<Section>& sections() {
        .takes = {.space = true, .triangles = OfTriangles::any},
        .compute = counts_section,
        .tables = counts_tables},
-      {.name = "equilibrium", .takes = {.triangles = OfTriangles::any, .law = true}, .compute = equilibrium_section},
+      {.name = "equilibrium",
+       .takes = {.space = true, .triangles = OfTriangles::any, .law = true},
+       .compute = equilibrium_section},
       {.name = "stress",
-       .takes = {.triangles = OfTriangles::any,
-                 .cell_for = "an isolated packing has no area",
+       .takes = {.space = true,
+                 .triangles = OfTriangles::any,
+                 .cell_for = "an isolated packing has no area and no volume",
                  .forces = Forces::needed},
        .compute = stress_section},
       {.name = "beams",
        .takes = {.triangles = OfTriangles::any, .beams = true},
        .compute = beams_section,
        .tables = beams_tables},
-      {.name = "forces", .takes = {.forces = Forces::needed}, .compute = forces_section, .tables = forces_tables},
+      {.name = "forces",
+       .takes = {.space = true, .forces = Forces::needed},
+       .compute = forces_section,
+       .tables = forces_tables},
       {.name = "percolation",
-       .takes = {.cell_for = "a network percolates to its own image", .forces = Forces::needed},
+       .takes = {.space = true, .cell_for = "a network percolates to its own image", .forces = Forces::needed},
        .compute = percolation_section},
-      {.name = "rigidity", .takes = {.triangles = OfTriangles::with_energy}, .compute = rigidity_section},
+      {.name = "rigidity",
+       .takes = {.space = true, .triangles = OfTriangles::with_energy},
+       .compute = rigidity_section},
       {.name = "clusters",
-       .takes = {.triangles = OfTriangles::with_energy},
+       .takes = {.space = true, .triangles = OfTriangles::with_energy},
        .compute = clusters_section,
        .tables = clusters_tables},
       {.name = "stiffness",
-       .takes = {.triangles = OfTriangles::with_energy, .stiffness = true},
+       .takes = {.space = true, .triangles = OfTriangles::with_energy, .stiffness = true},
        .compute = stiffness_section},
       {.name = "moduli",
-       .takes = {.triangles = OfTriangles::with_energy,
+       .takes = {.space = true,
+                 .triangles = OfTriangles::with_energy,
                  .cell_for = "elastic moduli are those of its strains",
                  .stiffness = true,
                  .strains = true},
        .compute = moduli_section},
       {.name = "modes",
-       .takes = {.triangles = OfTriangles::with_energy, .forces = Forces::with_prestress, .stiffness = true},
+       .takes =
+           {.space = true, .triangles = OfTriangles::with_energy, .forces = Forces::with_prestress, .stiffness = true},
        .compute = modes_section,
        .tables = modes_tables,
        .only_when_named = true},
       {.name = "bases",
-       .takes = {.triangles = OfTriangles::with_energy},
+       .takes = {.space = true, .triangles = OfTriangles::with_energy},
        .compute = bases_section,
        .tables = bases_tables,
        .only_when_named = true},
@@ -71,6 +81,9 @@ const std::vector<Section>& sections() {
        .takes = {.cell_for = "C(r) averages over it", .grains = true},
        .compute = dacf_section,
        .align = align_dacf},
+      {.name = "rdf",
+       .takes = {.plane = false, .space = true, .cell_for = "g(r) compares with its density", .grains = true},
+       .compute = rdf_section},
   };
   return table;
 }
@@ -104,6 +117,7 @@ void set_undefined_to_null(nlohmann::ordered_json& value) {
 nlohmann::ordered_json units_of(const AnalysisInput& input) {
   if (input.triangles) return {{"system", "cgs"}, {"length", "cm"}, {"mass", "g"}, {"force", "dyn"}, {"time", "s"}};
   if (!input.has_law()) return {{"system", "of the input file"}};
+  if (input.packing_3d) return {{"system", "reduced"}, {"length", "a"}, {"mass", "m"}, {"force", "F0"}, {"time", "T0"}};
   const bool cohesive = input.state.law.attraction > 0, pressed = input.has_cell() || !(input.state.scene.gravity > 0);
   nlohmann::ordered_json units{{"system", "reduced"},
                                {"length", "a"},
@@ -138,23 +152,41 @@ std::optional<std::string> refusal_of_triangles(const Takes& takes, const Analys
   return std::nullopt;
 }
 
+bool has_tangential_stiffness(const AnalysisInput& input) {
+  if (!input.spheres_state) return input.state.law.tangential_stiffness > 0;
+  const SphereLaw& law = input.spheres_state->law;
+  return law.normal == NormalForce::hertz || law.tangential_stiffness > 0;
+}
+
 // Why a section does not take the input; none: it does.
 std::optional<std::string> refusal(const Takes& takes, const AnalysisInput& input, const AnalysisOptions& options) {
+  if (!input.packing_3d && !takes.plane) return "is defined for spheres; this packing is in the plane";
   if (input.packing_3d && !takes.space) return "is defined for packings in the plane; this one is in 3D";
   if (!input.has_cell() && !takes.cell_for.empty()) return "needs a periodic cell: " + std::string(takes.cell_for);
   if (input.grains() == 0 && takes.grains) return "needs at least one grain";
   if (takes.beams && !input.triangles) return "needs grains of triangles joined by beams";
-  if (!input.has_law() && takes.law) return "needs a state of the solver: this input has no interaction law";
+  if (!input.has_law() && takes.law && !input.packing_3d)
+    return "needs a state of the solver: this input has no interaction law";
   const bool forces = read_forces(input).known;
-  if (!forces && takes.forces == Forces::needed) return "needs forces: this input has none";
+  if (!forces && (takes.forces == Forces::needed || (takes.law && input.packing_3d)))
+    return "needs forces: this input has none";
   if (!forces && takes.forces == Forces::with_prestress && options.prestress)
     return "--prestress needs the forces of the links";
+  if (input.packing_3d && takes.forces == Forces::with_prestress && options.prestress)
+    return "--prestress is for packings in the plane";
+  if (input.packing_3d && (takes.strains || (takes.stiffness && options.cell_free)) && input.spheres().any_held())
+    return "strains the cell, and this one has walls in it that hold";
+  if (input.triangles && takes.stiffness && !options.stiffness.empty()) return "--stiffness is for disks and spheres";
   if (input.triangles) return refusal_of_triangles(takes, input, options);
+  if (takes.stiffness && input.has_law() && !options.stiffness.empty())
+    return "--stiffness is for packings without a law, and this one has its own";
   if (takes.stiffness && input.has_law()) {  // a state's law fills only the axes it has; a network's law has all
     const NetworkLaw rows = input.network_law(options);
-    if (rows != NetworkLaw::frictionless && !(input.state.law.tangential_stiffness > 0))
+    if (rows != NetworkLaw::frictionless && !has_tangential_stiffness(input))
       return "the law of the state has no tangential stiffness; use --law frictionless";
-    if (rows == NetworkLaw::rolling && !(input.state.law.rolling_stiffness > 0))
+    const double rolling =
+        input.spheres_state ? input.spheres_state->law.rolling_stiffness : input.state.law.rolling_stiffness;
+    if (rows == NetworkLaw::rolling && !(rolling > 0))
       return "the law of the state has no rolling stiffness; use --law friction";
   }
   return std::nullopt;

@@ -24,7 +24,8 @@ enum class OfTriangles { none, any, with_energy };
 
 // Which inputs a section takes. `analyze` refuses the others, so that no section has to.
 struct Takes {
-  bool space = false;  // packings in space, too; else only those in the plane
+  bool plane = true;   // packings in the plane
+  bool space = false;  // packings in space, too
   OfTriangles triangles = OfTriangles::none;
   std::string_view cell_for = {};  // why it needs a periodic cell; empty: it takes isolated packings, too
   bool law = false;                // needs an interaction law: a state of the solver

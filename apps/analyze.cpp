@@ -1,8 +1,10 @@
 // isostat analyze INPUT... : what the report holds is analysis/report.hpp; here are only arguments and files.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "analysis/ensemble.hpp"
 #include "analysis/load_input.hpp"
@@ -15,6 +17,26 @@
 
 namespace isostat {
 namespace {
+
+// K_N[,K_T[,K_R]], each positive.
+std::vector<double> stiffness_of(const std::string& text) {
+  std::vector<double> all;
+  std::istringstream in(text);
+  for (std::string part; std::getline(in, part, ',');) {
+    std::size_t used = 0;
+    double value = 0;
+    try {
+      value = std::stod(part, &used);
+    } catch (const std::exception&) {
+      used = 0;
+    }
+    if (used == 0 || used != part.size() || !(value > 0) || !std::isfinite(value)) all.resize(4);
+    all.push_back(value);
+  }
+  if (all.empty() || all.size() > 3 || text.back() == ',')
+    throw InputError("command line", 0, "--stiffness", text, "is K_N or K_N,K_T or K_N,K_T,K_R, positive numbers");
+  return all;
+}
 
 AnalysisOptions options_of(const Arguments& arguments) {
   AnalysisOptions options;
@@ -30,6 +52,7 @@ AnalysisOptions options_of(const Arguments& arguments) {
   if (k_max && !(*k_max > 0))
     throw InputError("command line", 0, "--k-max", *arguments.value("--k-max"), "must be positive");
   options.k_max = k_max.value_or(0);
+  if (const auto text = arguments.value("--stiffness")) options.stiffness = stiffness_of(*text);
   return options;
 }
 
@@ -86,6 +109,7 @@ int analyze_command(int argc, char** argv) {
        {"--law", "LAW", "friction, frictionless or rolling; default: the state's own (a network: friction)"},
        {"--cell", "fixed|free", "free adds the diagonal strains of the cell to the degrees of freedom"},
        {"--gap-tolerance", "LENGTH", "gap up to which grains touch (contacts of grain lists; closing of pores)"},
+       {"--stiffness", "K_N[,K_T[,K_R]]", "stiffness, moduli, modes: of contacts, of a packing without a law"},
        {"--prestress", "", "modes: those of the full tangent too, geometric term included (not symmetric)"},
        {"--near-null", "", "rigidity: the smallest nonzero singular values also above 20000 degrees of freedom"},
        {"--vectors", "N", "bases: at most N floppy modes and N self-stress states; default 20"},

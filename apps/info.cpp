@@ -124,10 +124,17 @@ Json law_json(const SphereLaw& law) {
 }
 
 // What only one system has: numbers of bodies, and what ends the report.
-void add_size(Json&, const State<Disks>&) {}
 void add_size(Json& json, const State<Spheres>& state) {
   json["grains"] = state.packing.bodies.size();
   json["walls"] = state.packing.walls.size();
+}
+void add_size(Json& json, const State<Disks>& state) {
+  if (state.scene.container.shape == ContainerShape::none) return;
+  const Packing<2>& p = state.packing;
+  json["grains"] = count_free(p);
+  json["wall_grains"] = p.grains() - count_free(p);
+  json["feet"] = p.feet.size();
+  json["grains_left"] = state.surroundings.grains_left;
 }
 void add_size(Json& json, const State<TriangleGrains>& state) {
   const TrianglePacking& p = state.packing;

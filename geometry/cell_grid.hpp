@@ -54,9 +54,11 @@ class CellGrid {
   }
   int count(int axis) const { return count_[static_cast<std::size_t>(axis)]; }
   double width(int axis) const { return 1 / inverse_[static_cast<std::size_t>(axis)]; }  // infinite in a flat frame
+  double coordinate(double x, int axis) const {  // in columns
+    return (x - origin_[axis]) * inverse_[static_cast<std::size_t>(axis)];
+  }
   int column(double x, int axis) const {
-    const auto u = static_cast<std::size_t>(axis);
-    return std::clamp(static_cast<int>((x - origin_[axis]) * inverse_[u]), 0, count_[u] - 1);
+    return std::clamp(static_cast<int>(coordinate(x, axis)), 0, count_[static_cast<std::size_t>(axis)] - 1);
   }
   std::size_t index(const std::array<int, D>& column) const {
     std::size_t f = 0;

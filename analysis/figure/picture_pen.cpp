@@ -52,7 +52,7 @@ void FramePen::areas(Canvas& canvas, const std::vector<const Polygon*>& areas, c
 void PicturePen::disks(Canvas& canvas, const std::vector<std::size_t>& style, const std::vector<Paint>& paints) const {
   const Bodies<2>& b = packing_.bodies;
   std::vector<std::vector<DiskMark>> batches(paints.size() + 2);  // walls and lids last
-  for (std::size_t i = 0; i < b.size(); ++i) {
+  for (std::size_t i = 0; i < packing_.grains(); ++i) {           // feet don't show
     const GrainPart part = packing_.part.empty() ? GrainPart::free : packing_.part[i];
     const std::size_t batch = part == GrainPart::free ? style[i] : paints.size() + (part == GrainPart::lid ? 1 : 0);
     const Vec2 r = frame().wrap(b.position[i]), reach{{b.radius[i], b.radius[i]}};

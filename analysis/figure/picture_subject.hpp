@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "analysis/figure/picture_content.hpp"
+#include "analysis/figure/wall_lines.hpp"
 
 namespace isostat {
 
@@ -15,13 +16,14 @@ class PictureSubject {
   virtual std::vector<LegendItem> legend(const PictureFrame& frame, double em) const = 0;
 };
 
-// Keeps a reference to the packing.
+// Keeps a reference to the packing. Smooth walls stand around it.
 class DiskSubject final : public PictureSubject {
  public:
-  DiskSubject(const Packing<2>& packing, std::unique_ptr<PictureContent> content)
-      : packing_(packing), content_(std::move(content)) {}
-  Extent extent() const override { return extent_of(packing_, content_->margin(packing_)); }
+  DiskSubject(const Packing<2>& packing, std::unique_ptr<PictureContent> content, std::vector<SmoothWall> walls = {})
+      : packing_(packing), content_(std::move(content)), walls_(std::move(walls)) {}
+  Extent extent() const override { return with_walls(extent_of(packing_, content_->margin(packing_)), walls_); }
   void draw(Canvas& canvas, const PictureFrame& frame) const override {
+    draw_walls(canvas, FramePen(frame), walls_);
     content_->draw(canvas, PicturePen(packing_, frame));
   }
   std::vector<LegendItem> legend(const PictureFrame& frame, double em) const override {
@@ -31,6 +33,7 @@ class DiskSubject final : public PictureSubject {
  private:
   const Packing<2>& packing_;
   std::unique_ptr<PictureContent> content_;
+  std::vector<SmoothWall> walls_;
 };
 
 }  // namespace isostat

@@ -5,15 +5,19 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "analysis/network/force_scale.hpp"
 #include "analysis/network/sections.hpp"
-#include "analysis/network/triangle_sections.hpp"
 #include "dem/disks/at_rest.hpp"
 #include "dem/disks/certificate.hpp"
+#include "dem/spheres/certificate.hpp"
+#include "dem/state/balance_3d.hpp"
 #include "dem/state/link_ends.hpp"
+#include "dem/triangles/certificate.hpp"
 
 namespace isostat {
 namespace {
 
+using Json = nlohmann::ordered_json;
 constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
 // Largest difference between a link's stored normal force and the static law at the gap of the stored positions [F1]:
@@ -27,32 +31,72 @@ double law_residual(const State<Disks>& state, double scale) {
   return largest / scale;
 }
 
+Json certificate_json(const Certificate& c, bool yields) {
+  return {{"max_force", c.max_force},
+          {"max_moment", c.max_moment},
+          {"pressure_error", c.pressure_controlled ? c.pressure_error : kUndefined},
+          {"kinetic_energy_per_grain", c.kinetic_energy_per_grain},
+          {"tolerance",
+           {{"force", c.tolerance_force},
+            {"moment", c.tolerance_force},
+            {"pressure", c.pressure_controlled ? c.tolerance_pressure : kUndefined},
+            {"kinetic_energy", c.tolerance_kinetic}}},
+          {"force_scale", c.force_scale},
+          {"sliding", c.sliding},
+          {"rolling_yielded", c.rolling_yielded},
+          {"smallest_margin", yields ? c.smallest_margin : kUndefined},
+          {"moving", c.moving},
+          {"finishing", c.finishing},
+          {"equilibrated", c.equilibrated}};
+}
+
+template <int D>
+bool any_contact(const Packing<D>& packing) {
+  return std::any_of(packing.links.begin(), packing.links.end(), [](const Link<D>& l) { return is_contact(l.kind); });
+}
+template <class Law>
+bool can_yield(const Law& law) {
+  return law.friction > 0 || law.rolling_friction > 0;
+}
+bool slides(const State<TriangleGrains>& state) { return state.law.friction > 0 && !state.packing.overlaps.empty(); }
+
+// Walls and their contacts stay with the state.
+Json equilibrium_of_spheres(const State<Spheres>& state, const Packing<3>& packing) {
+  SpherePacking whole = state.packing;
+  static_cast<Packing<3>&>(whole) = packing;
+  Certificate c = evaluate_certificate(whole, state.law, state.imposed_stress, state.scene.equilibrium);
+  c.finishing = state.certificate.finishing;
+  return certificate_json(c, (any_contact(packing) || !whole.wall_links.empty()) && can_yield(state.law));
+}
+
+// Without a law: loads only, in units of the mean |F|, and of that times the largest diameter.
+Json equilibrium_of_spheres(const Packing<3>& packing, const ForceReading& reading) {
+  double force = 0, moment = 0, diameter = 0;
+  const std::vector<BodyLoad3> loads = net_loads(packing);
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    if (!is_free(packing.part, k)) continue;
+    force = std::max(force, norm(loads[k].force)), moment = std::max(moment, norm(loads[k].moment));
+    diameter = std::max(diameter, 2 * packing.bodies.radius[k]);
+  }
+  return {{"max_force", force / reading.scale},
+          {"max_moment", moment / (reading.scale * diameter)},
+          {"force_scale", reading.scale}};
+}
+
 }  // namespace
 
-nlohmann::ordered_json equilibrium_section(const AnalysisInput& input, const AnalysisOptions&) {
-  if (input.triangles) return triangle_equilibrium(*input.triangles);
+Json equilibrium_section(const AnalysisInput& input, const AnalysisOptions&) {
+  if (input.spheres_state) return equilibrium_of_spheres(*input.spheres_state, *input.packing_3d);
+  if (input.packing_3d) return equilibrium_of_spheres(*input.packing_3d, read_forces(input));
+  if (input.triangles) {
+    Json json = certificate_json(evaluate_certificate(*input.triangles), slides(*input.triangles));
+    json.erase("rolling_yielded");  // no rolling resistance
+    return json;
+  }
   const State<Disks>& state = input.state;
   const Certificate c = evaluate_certificate(state);
-  const auto contacts = std::count_if(state.packing.links.begin(), state.packing.links.end(),
-                                      [](const Link<2>& l) { return is_contact(l.kind); });
-  const bool yields = contacts > 0 && (state.law.friction > 0 || state.law.rolling_friction > 0);
-  nlohmann::ordered_json json;
-  json["max_force"] = c.max_force;
-  json["max_moment"] = c.max_moment;
-  json["pressure_error"] = c.pressure_controlled ? c.pressure_error : kUndefined;
-  json["kinetic_energy_per_grain"] = c.kinetic_energy_per_grain;
-  json["tolerance"] = {{"force", c.tolerance_force},
-                       {"moment", c.tolerance_force},
-                       {"pressure", c.pressure_controlled ? c.tolerance_pressure : kUndefined},
-                       {"kinetic_energy", c.tolerance_kinetic}};
-  json["force_scale"] = c.force_scale;
-  json["sliding"] = c.sliding;
-  json["rolling_yielded"] = c.rolling_yielded;
-  json["smallest_margin"] = yields ? c.smallest_margin : kUndefined;
+  Json json = certificate_json(c, any_contact(state.packing) && can_yield(state.law));
   json["law_residual"] = law_residual(state, c.force_scale);
-  json["moving"] = c.moving;
-  json["finishing"] = c.finishing;
-  json["equilibrated"] = c.equilibrated;
   return json;
 }
 

@@ -38,19 +38,13 @@ ForceReading read_foreign(const Packing<D>& packing) {
 
 }  // namespace
 
-ForceReading read_forces(const State<Spheres>& state) {
-  if (!state.law.known()) return read_foreign(state.packing);
-  ForceReading reading;
-  reading.known = reading.law_known = true;
-  reading.cohesive = state.law.attraction > 0;
-  reading.scale = force_scale(state.law, state.imposed_stress);
-  reading.threshold = kLoadTolerance * reading.scale;
-  return reading;
-}
-
 ForceReading read_forces(const AnalysisInput& input) {
-  if (input.sphere_state) return read_forces(*input.sphere_state);
-  if (input.packing_3d) return read_foreign(*input.packing_3d);
+  if (input.packing_3d) {
+    if (!input.spheres_state) return read_foreign(*input.packing_3d);
+    const SphereLaw& law = input.spheres_state->law;
+    const double scale = force_scale(law, input.spheres_state->imposed_stress);
+    return {true, true, law.attraction > 0, scale, kLoadTolerance * scale};
+  }
   if (input.triangles) {  // forces follow from the positions
     ForceReading reading;
     reading.known = reading.law_known = true, reading.cohesive = false;

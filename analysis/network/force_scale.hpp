@@ -6,7 +6,7 @@ namespace isostat {
 
 struct ForceReading {
   bool known = false;      // the input carries forces (a state of the solver, or a foreign packing with some force)
-  bool law_known = false;  // AnalysisInput::has_law(); of spheres SphereLaw::known()
+  bool law_known = false;  // AnalysisInput::has_law()
   bool cohesive = true;    // every interaction counts; false: only contacts whose force exceeds the threshold
   double scale = 1;  // F1 = max(F0, a P, heaviest weight); without a law the mean magnitude of the link forces [force
                      // unit of input]
@@ -15,7 +15,6 @@ struct ForceReading {
 
 // Without a law a packing is read as cohesionless if it has forces and no normal force below -threshold.
 ForceReading read_forces(const AnalysisInput& input);
-ForceReading read_forces(const State<Spheres>& state);
 
 template <int D>
 double force_magnitude(const Link<D>& link);  // |F| = |N n + T t|

@@ -26,13 +26,19 @@ struct Population {
 };
 
 // A contact with a wall has one end at a grain.
-double free_ends(const Packing<2>& packing, const Link<2>& link) {
+template <int D>
+double free_ends(const Packing<D>& packing, const Link<D>& link) {
   return static_cast<double>(is_free(packing.part, idx(link.i)) + is_free(packing.part, idx(link.j)));
 }
 
+// In space its magnitude.
+double tangential_of(const Link<2>& link) { return link.tangential_force; }
+double tangential_of(const Link<3>& link) { return norm(link.tangential_force); }
+
 // Fig. 15: angle between n and F in degrees; 0 repulsive, 180 tensile, both with T = 0.
-double angle_to_normal(const Link<2>& link) {
-  return std::atan2(std::abs(link.tangential_force), link.normal_force) * (180 / std::numbers::pi);
+template <int D>
+double angle_to_normal(const Link<D>& link) {
+  return std::atan2(std::abs(tangential_of(link)), link.normal_force) * (180 / std::numbers::pi);
 }
 
 nlohmann::ordered_json as_json(const Histogram& h) { return {{"edges", h.edges}, {"density", h.density}}; }
@@ -53,17 +59,18 @@ std::vector<double> decades(int from, int to, int per_decade, double unit) {
   return edges;
 }
 
-nlohmann::ordered_json histograms(const Packing<2>& packing, const ForceReading& reading) {
+template <int D>
+nlohmann::ordered_json histograms(const Packing<D>& packing, const ForceReading& reading) {
   std::vector<double> normal, tangential, relative, magnitude, angle;
   double repulsive_sum = 0, repulsive = 0;
-  for (const Link<2>& link : packing.links) {
+  for (const Link<D>& link : packing.links) {
     if (link.kind == LinkKind::beam) continue;
     const double total = force_magnitude(link);
     normal.push_back(link.normal_force);
     magnitude.push_back(total);
     if (link.normal_force > reading.threshold) repulsive_sum += link.normal_force, repulsive += 1;
     if (!is_contact(link.kind)) continue;
-    tangential.push_back(link.tangential_force);
+    tangential.push_back(tangential_of(link));
     relative.push_back(link.normal_force);
     if (total > reading.threshold) angle.push_back(angle_to_normal(link));
   }
@@ -82,15 +89,12 @@ nlohmann::ordered_json histograms(const Packing<2>& packing, const ForceReading&
   return json;
 }
 
-}  // namespace
-
-nlohmann::ordered_json forces_section(const AnalysisInput& input, const AnalysisOptions&) {
-  const Packing<2>& packing = input.packing();
-  const ForceReading reading = read_forces(input);
+template <int D>
+nlohmann::ordered_json forces_of(const Packing<D>& packing, const ForceReading& reading) {
   Population plus, minus, zero;
   double unstressed = 0, above_tenth = 0;
   std::vector<double> magnitudes;
-  for (const Link<2>& link : packing.links) {
+  for (const Link<D>& link : packing.links) {
     if (link.kind == LinkKind::beam) continue;
     const double n = link.normal_force;
     (n > reading.threshold ? plus : n < -reading.threshold ? minus : zero).add(std::abs(n), free_ends(packing, link));
@@ -117,17 +121,39 @@ nlohmann::ordered_json forces_section(const AnalysisInput& input, const Analysis
   return json;
 }
 
-std::vector<Table> forces_tables(const AnalysisInput& input, const AnalysisOptions&) {
-  const Packing<2>& packing = input.packing();
+void add_vectors(std::vector<double>& line, const Link<2>& link) {
+  line.insert(line.end(), {link.tangential_force, link.moment});
+}
+void add_vectors(std::vector<double>& line, const Link<3>& link) {
+  line.insert(line.end(), link.tangential_force.c.begin(), link.tangential_force.c.end());
+  line.insert(line.end(), link.moment.c.begin(), link.moment.c.end());
+}
+
+template <int D>
+Table links_of(const Packing<D>& packing) {
   Table table{"links", {"i", "j", "distant", "h", "N", "T", "M", "F", "angle"}, {}};
-  for (const Link<2>& link : packing.links) {
+  if (D == 3) table.columns = {"i", "j", "distant", "h", "N", "Tx", "Ty", "Tz", "Mx", "My", "Mz", "F", "angle"};
+  for (const Link<D>& link : packing.links) {
     if (link.kind == LinkKind::beam) continue;
     const auto id = [&](std::int32_t k) { return static_cast<double>(packing.bodies.id[idx(k)]); };
-    table.rows.push_back({id(link.i), id(link.j), static_cast<double>(link.kind == LinkKind::distant), link.gap,
-                          link.normal_force, link.tangential_force, link.moment, force_magnitude(link),
-                          angle_to_normal(link)});
+    std::vector<double> line{id(link.i), id(link.j), static_cast<double>(link.kind == LinkKind::distant), link.gap,
+                             link.normal_force};
+    add_vectors(line, link);
+    line.insert(line.end(), {force_magnitude(link), angle_to_normal(link)});
+    table.rows.push_back(std::move(line));
   }
-  return {table};
+  return table;
+}
+
+}  // namespace
+
+nlohmann::ordered_json forces_section(const AnalysisInput& input, const AnalysisOptions&) {
+  const ForceReading reading = read_forces(input);
+  return input.packing_3d ? forces_of(*input.packing_3d, reading) : forces_of(input.packing(), reading);
+}
+
+std::vector<Table> forces_tables(const AnalysisInput& input, const AnalysisOptions&) {
+  return {input.packing_3d ? links_of(*input.packing_3d) : links_of(input.packing())};
 }
 
 }  // namespace isostat

@@ -88,26 +88,6 @@ std::vector<Table> triangle_counts_tables(const AnalysisInput& input) {
   return {table};
 }
 
-Json triangle_equilibrium(const State<TriangleGrains>& state) {
-  const Certificate c = evaluate_certificate(state);
-  Json json;
-  json["max_force"] = c.max_force;
-  json["max_moment"] = c.max_moment;
-  json["pressure_error"] = c.pressure_controlled ? c.pressure_error : kUndefined;
-  json["kinetic_energy_per_grain"] = c.kinetic_energy_per_grain;
-  json["tolerance"] = {{"force", c.tolerance_force},
-                       {"moment", c.tolerance_force},
-                       {"pressure", c.pressure_controlled ? c.tolerance_pressure : kUndefined},
-                       {"kinetic_energy", c.tolerance_kinetic}};
-  json["force_scale"] = c.force_scale;
-  json["sliding"] = c.sliding;
-  json["smallest_margin"] = state.law.friction > 0 && !state.packing.overlaps.empty() ? c.smallest_margin : kUndefined;
-  json["moving"] = c.moving;
-  json["finishing"] = c.finishing;
-  json["equilibrated"] = c.equilibrated;
-  return json;
-}
-
 Json triangle_stress(const State<TriangleGrains>& state) {
   const StressTensor s = measured_stress(state);
   double sum = 0;

@@ -9,7 +9,6 @@ namespace isostat {
 
 nlohmann::ordered_json triangle_counts(const AnalysisInput& input);
 std::vector<Table> triangle_counts_tables(const AnalysisInput& input);
-nlohmann::ordered_json triangle_equilibrium(const State<TriangleGrains>& state);
 nlohmann::ordered_json triangle_stress(const State<TriangleGrains>& state);
 
 // Of the beams inside grains; with its tables.

@@ -118,9 +118,9 @@ Rows<F> body_rows(const LinkNetwork& network, NetworkLaw law, bool cell_free, co
 
 namespace {
 
-// Rank of up to three vectors of `dofs` entries, by elimination.
-template <class F>
-bool independent(std::array<std::array<F, 3>, 3> v, int count, int dofs) {
+// Rank of up to `dofs` vectors of `dofs` entries, by elimination.
+template <class F, std::size_t Most>
+bool independent(std::array<std::array<F, Most>, Most> v, int count, int dofs) {
   const auto n = idx(dofs), m = idx(count);
   if (m > n) return false;
   for (std::size_t k = 0; k < m; ++k) {
@@ -137,8 +137,8 @@ bool independent(std::array<std::array<F, 3>, 3> v, int count, int dofs) {
 
 }  // namespace
 
-template <class F>
-PrunedNetwork prune(const Rows<F>& rows, std::int32_t body_count, int dofs) {
+template <class F, int Most>
+PrunedNetwork<Most> prune(const Rows<F, Most>& rows, std::int32_t body_count, int dofs) {
   const auto n = idx(body_count);
   std::vector<std::int32_t> degree(n, 0);
   for (const auto& block : rows.blocks)
@@ -153,7 +153,7 @@ PrunedNetwork prune(const Rows<F>& rows, std::int32_t body_count, int dofs) {
         if (block.body < body_count) incident[idx(next[idx(block.body)]++)] = static_cast<std::int32_t>(r);
   }
 
-  PrunedNetwork result;
+  PrunedNetwork<Most> result;
   std::vector<char> row_gone(rows.size(), 0), body_gone(n, 0);
   std::vector<std::int32_t> queue;
   for (std::size_t b = n; b-- > 0;)
@@ -163,8 +163,8 @@ PrunedNetwork prune(const Rows<F>& rows, std::int32_t body_count, int dofs) {
     const auto b = idx(body);
     queue.pop_back();
     if (body_gone[b] || degree[b] == 0 || degree[b] > dofs) continue;
-    std::array<std::array<F, 3>, 3> entries{};
-    std::array<std::int32_t, 3> mine{};
+    std::array<std::array<F, Most>, Most> entries{};
+    std::array<std::int32_t, Most> mine{};
     int count = 0;
     for (std::int32_t e = start[b]; e < start[b + 1]; ++e) {
       const std::int32_t r = incident[idx(e)];
@@ -198,7 +198,9 @@ template Rows<SecondField> body_rows(const LinkNetwork&, NetworkLaw, bool, const
                                      const FieldGeometry<SecondField>&);
 template Rows<WideField> body_rows(const LinkNetwork&, NetworkLaw, bool, const RigidBodies&,
                                    const FieldGeometry<WideField>&);
-template PrunedNetwork prune(const Rows<FirstField>&, std::int32_t, int);
-template PrunedNetwork prune(const Rows<WideField>&, std::int32_t, int);
+template PrunedNetwork<3> prune(const Rows<FirstField>&, std::int32_t, int);
+template PrunedNetwork<3> prune(const Rows<WideField>&, std::int32_t, int);
+template PrunedNetwork<6> prune(const Rows<FirstField, 6>&, std::int32_t, int);
+template PrunedNetwork<6> prune(const Rows<WideField, 6>&, std::int32_t, int);
 
 }  // namespace isostat

@@ -25,17 +25,19 @@ Rows<F> body_rows(const LinkNetwork& network, NetworkLaw law, bool cell_free, co
 // Bodies whose rows, at the time of removal, are independent on the columns of that body alone: they and their rows go,
 // the rank drops by the number of those rows. Dangling ends and chains of them vanish this way. Proved in the field:
 // a nonzero minor stays nonzero over the rationals.
+template <int Most>
 struct PrunedBody {
   std::int32_t body = 0, count = 0;
-  std::array<std::int32_t, 3> rows{};  // indices of the rows that went with it
+  std::array<std::int32_t, Most> rows{};  // indices of the rows that went with it
 };
+template <int Most>
 struct PrunedNetwork {
-  std::vector<std::int32_t> rows;    // indices of the rows that remain
-  std::vector<std::int32_t> bodies;  // bodies that remain, ascending, including those without rows
-  std::vector<PrunedBody> pruned;    // in the order of removal
-  std::int64_t pruned_rank = 0;      // number of rows removed
+  std::vector<std::int32_t> rows;        // indices of the rows that remain
+  std::vector<std::int32_t> bodies;      // bodies that remain, ascending, including those without rows
+  std::vector<PrunedBody<Most>> pruned;  // in the order of removal
+  std::int64_t pruned_rank = 0;          // number of rows removed
 };
-template <class F>
-PrunedNetwork prune(const Rows<F>& rows, std::int32_t body_count, int dofs);
+template <class F, int Most>
+PrunedNetwork<Most> prune(const Rows<F, Most>& rows, std::int32_t body_count, int dofs);
 
 }  // namespace isostat

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "analysis/rigidity/exact_rank.hpp"
+#include "analysis/rigidity/null_motion.hpp"
 #include "analysis/rigidity/part_of_packing.hpp"
 #include "analysis/rigidity/reduced_problem.hpp"
 #include "dem/input_error.hpp"
@@ -17,75 +18,7 @@ namespace isostat {
 namespace {
 
 using F = WideField;
-constexpr std::uint64_t kMotionSeed = 0xC1057E5;
-
-// By body: Vx, Vy at the origin of its frame, W; the strain last.
-using Motion = std::vector<std::array<F, 3>>;
-
-// The rows of a pruned body, given everything else, determine its motion up to free components: those are random.
-std::array<F, 3> pruned_motion(const ReducedProblem<F>& problem, const PrunedBody& pruned, const Motion& motion) {
-  const auto dofs = idx(problem.per_body), count = idx(pruned.count);
-  std::array<std::array<F, 4>, 3> a{};  // rows of the body, right-hand side last
-  for (std::size_t k = 0; k < count; ++k)
-    for (const RowBlock<F>& block : problem.rows.of(idx(pruned.rows[k])))
-      for (std::size_t d = 0; d < 3; ++d) {
-        if (block.body != pruned.body)
-          a[k][3] = a[k][3] - block.at[d] * motion[idx(block.body)][d];
-        else if (d < dofs)
-          a[k][d] = block.at[d];
-      }
-  std::array<int, 3> pivot_row = {-1, -1, -1};
-  std::size_t done = 0;
-  for (std::size_t d = 0; d < dofs && done < count; ++d) {
-    std::size_t p = done;
-    while (p < count && a[p][d].is_zero()) ++p;
-    if (p == count) continue;
-    std::swap(a[p], a[done]);
-    const F inverse = a[done][d].inverse();
-    for (F& v : a[done]) v = v * inverse;
-    for (std::size_t k = 0; k < count; ++k) {
-      if (k == done || a[k][d].is_zero()) continue;
-      const F factor = a[k][d];
-      for (std::size_t c = 0; c < 4; ++c) a[k][c] = a[k][c] - factor * a[done][c];
-    }
-    pivot_row[d] = static_cast<int>(done++);
-  }
-  std::array<F, 3> x{};
-  for (std::size_t d = 0; d < dofs; ++d)
-    if (pivot_row[d] < 0) x[d] = F::random(kMotionSeed + 1, idx(pruned.body) * 3 + d);
-  for (std::size_t d = 0; d < dofs; ++d) {
-    if (pivot_row[d] < 0) continue;
-    const auto& row = a[idx(pivot_row[d])];
-    x[d] = row[3];
-    for (std::size_t c = 0; c < dofs; ++c)
-      if (pivot_row[c] < 0) x[d] = x[d] - row[c] * x[c];
-  }
-  return x;
-}
-
-Motion random_motion(const ReducedProblem<F>& problem) {
-  Motion motion(idx(problem.bodies.count) + 1);
-  for (std::uint64_t attempt = 0;; ++attempt) {
-    try {
-      const ModularLdlt<F> ldlt(problem.tree, problem.dofs, problem.node_rows(problem.rows), 991 + attempt, true);
-      const std::vector<F> x = ldlt.random_null_vector(kMotionSeed);
-      for (std::size_t n = 0; n < problem.body_of_node.size(); ++n) {
-        const auto at = idx(ldlt.offset(static_cast<std::int32_t>(n)));
-        for (std::size_t d = 0; d < idx(problem.dofs[n]); ++d) motion[idx(problem.body_of_node[n])][d] = x[at + d];
-      }
-      break;
-    } catch (const RandomizationFailed&) {
-      if (attempt == 3) throw;
-    }
-  }
-  for (std::int32_t b : problem.network.bodies)  // without rows: free
-    if (problem.node_of_body[idx(b)] < 0)
-      for (std::size_t d = 0; d < idx(problem.per_body); ++d)
-        motion[idx(b)][d] = F::random(kMotionSeed + 2, idx(b) * 3 + d);
-  for (auto p = problem.network.pruned.rbegin(); p != problem.network.pruned.rend(); ++p)
-    motion[idx(p->body)] = pruned_motion(problem, *p, motion);
-  return motion;
-}
+using Motion = NullMotion<LinkNetwork>;
 
 // Links whose bodies move as one rigid body (with friction; an overlap with all its triangles), labelled by a
 // representative body; -1: hinges. The walls are one body.
@@ -221,8 +154,8 @@ std::optional<RigidCluster> describe(const LinkNetwork& network, NetworkLaw law,
 RigidClusters rigid_clusters(const LinkNetwork& network, NetworkLaw law, bool cell_free) {
   const Packing<2>& packing = network.packing;
   if (cell_free && !packing.cell) throw InputError("command line", 0, "--cell", "free", "the input has no cell");
-  const ReducedProblem<F> problem = reduce_problem<F>(network, law, cell_free);
-  const Motion motion = random_motion(problem);
+  const auto problem = reduce_problem<F>(network, law, cell_free);
+  const Motion motion = random_null_motion(problem);
   const FieldGeometry<F> geometry = exact_geometry<F>(network);
   const std::vector<std::int32_t> label = law == NetworkLaw::frictionless && !network.of_triangles()
                                               ? label_by_links(network, problem, motion, geometry)
@@ -248,6 +181,7 @@ RigidClusters rigid_clusters(const LinkNetwork& network, NetworkLaw law, bool ce
   for (const Entry& e : entries) {
     const auto index = static_cast<std::int32_t>(result.clusters.size());
     result.clusters.push_back(e.cluster);
+    result.links.push_back(*e.links);
     for (std::int32_t l : *e.links) {
       result.cluster_of_link[idx(l)] = index;
       network.each_bond(idx(l), [&](std::int32_t i, std::int32_t j, const ImageShift<2>&) {

@@ -15,10 +15,11 @@ namespace {
 constexpr std::uint64_t kWeightSeed = 0x150574A7;
 
 // Dimension of the null space of the reduced rows, with pruned and free bodies counted back in.
-template <class G>
-std::int64_t null_dimension(const ReducedProblem<FirstField>& problem, const Rows<G>& rows) {
-  const std::int64_t unknowns =
-      static_cast<std::int64_t>(problem.bodies.count) * problem.per_body + (problem.strain_node() >= 0 ? 2 : 0);
+template <class G, class Network>
+std::int64_t null_dimension(const ReducedProblem<FirstField, Network>& problem,
+                            const Rows<G, kMostDofs<Network>>& rows) {
+  const std::int64_t unknowns = static_cast<std::int64_t>(problem.bodies.count) * problem.per_body +
+                                (problem.strain_node() >= 0 ? kDimension<Network> : 0);
   for (std::uint64_t attempt = 0;; ++attempt) {
     try {
       const ModularLdlt<G> ldlt(problem.tree, problem.dofs, problem.node_rows(rows), kWeightSeed + attempt, false);
@@ -61,16 +62,51 @@ void count_null_spaces(const LinkNetwork& network, NetworkLaw law, ExactRank& r)
   r.mechanisms = r.floppy - r.trivial - r.rattler_modes;
 }
 
-}  // namespace
+// Points with links (of a network without any: all) on one line turn about it without moving.
+bool collinear(const SphereNetwork& network, const std::vector<char>& linked) {
+  using F = FirstField;
+  const SphereGeometry<F> g = exact_geometry<F>(network);
+  const auto first = static_cast<std::size_t>(std::find(linked.begin(), linked.end(), 1) - linked.begin());
+  const bool all = first == linked.size();
+  const Real3<F>& origin = g.position[all ? 0 : first];
+  Real3<F> line{};
+  for (std::size_t k = 0; k < g.position.size(); ++k) {
+    if (!all && !linked[k]) continue;
+    const Real3<F> arm = difference_3d<F>(g.position[k], origin);
+    if (line == Real3<F>{})
+      line = arm;
+    else if (cross_3d<F>(arm, line) != Real3<F>{})
+      return false;
+  }
+  return true;
+}
 
-ExactRank exact_rank(const LinkNetwork& network, NetworkLaw law, bool cell_free) {
+void count_null_spaces(const SphereNetwork& network, NetworkLaw law, ExactRank& r) {
+  const std::int64_t n = network.free, per_body = dof_layout(network, law, false).per_body;
+  std::vector<char> linked(network.packing.bodies.size(), 0);
+  for (const Link<3>& link : network.packing.links) linked[idx(link.i)] = linked[idx(link.j)] = 1;
+  const std::int64_t rattlers = n - std::count(linked.begin(), linked.begin() + n, 1);
+  if (network.any_held() || n == 0)
+    r.trivial = 0;
+  else if (network.packing.cell)
+    r.trivial = 3;
+  else if (law != NetworkLaw::frictionless)
+    r.trivial = 6;
+  else
+    r.trivial = n == 1 ? 3 : collinear(network, linked) ? 5 : 6;
+  r.rattler_modes = rattlers == n ? n * per_body - r.trivial : rattlers * per_body;
+  r.mechanisms = r.floppy - r.trivial - r.rattler_modes;
+}
+
+template <class Network>
+ExactRank rank_of(const Network& network, NetworkLaw law, bool cell_free) {
   if (cell_free && !network.packing.cell)
     throw InputError("command line", 0, "--cell", "free", "the input has no cell");
   ExactRank r;
   r.dofs = dof_layout(network, law, cell_free).size();
   r.rows = row_count(network, law);
 
-  const ReducedProblem<FirstField> problem = reduce_problem<FirstField>(network, law, cell_free);
+  const auto problem = reduce_problem<FirstField>(network, law, cell_free);
   r.bodies = problem.bodies.count;
   for (std::int8_t d : problem.dofs) r.eliminated_columns += d;
   r.timings.contraction = problem.contraction_seconds;
@@ -98,12 +134,13 @@ ExactRank exact_rank(const LinkNetwork& network, NetworkLaw law, bool cell_free)
   r.rank = r.dofs - r.floppy;
   r.hyperstatic = r.rows - r.rank;
   count_null_spaces(network, law, r);
-  r.gear_modes = static_cast<std::int64_t>(gear_components(network, law).size());
+  r.gear_modes = static_cast<std::int64_t>(gear_components(network, law).size()) * (kDimension<Network> == 2 ? 1 : 3);
   return r;
 }
 
-std::vector<std::vector<std::int32_t>> gear_components(const LinkNetwork& network, NetworkLaw law) {
-  const Packing<2>& packing = network.packing;
+template <class Network>
+std::vector<std::vector<std::int32_t>> gears_of(const Network& network, NetworkLaw law) {
+  const auto& packing = network.packing;
   // Union-find with parity: side[i] is the colour of i relative to its root.
   const std::size_t n = packing.bodies.size();
   std::vector<std::int32_t> parent(n);
@@ -125,7 +162,7 @@ std::vector<std::vector<std::int32_t>> gear_components(const LinkNetwork& networ
     }
     return std::pair{static_cast<std::size_t>(root), parity};
   };
-  for (const Link<2>& link : packing.links) {
+  for (const auto& link : packing.links) {
     const LinkRows rows = rows_of(link.kind, law);
     if (!rows.tangential && !rows.rolling) continue;
     const auto [a, side_a] = find(link.i);
@@ -150,6 +187,21 @@ std::vector<std::vector<std::int32_t>> gear_components(const LinkNetwork& networ
     components[static_cast<std::size_t>(index[root])].push_back(static_cast<std::int32_t>(i));
   }
   return components;
+}
+
+}  // namespace
+
+ExactRank exact_rank(const LinkNetwork& network, NetworkLaw law, bool cell_free) {
+  return rank_of(network, law, cell_free);
+}
+ExactRank exact_rank(const SphereNetwork& network, NetworkLaw law, bool cell_free) {
+  return rank_of(network, law, cell_free);
+}
+std::vector<std::vector<std::int32_t>> gear_components(const LinkNetwork& network, NetworkLaw law) {
+  return gears_of(network, law);
+}
+std::vector<std::vector<std::int32_t>> gear_components(const SphereNetwork& network, NetworkLaw law) {
+  return gears_of(network, law);
 }
 
 }  // namespace isostat

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "analysis/input.hpp"
+#include "analysis/sphere_network.hpp"
 #include "dem/state/packing.hpp"
 
 namespace isostat {
@@ -32,22 +33,25 @@ struct ExactRank {
   std::int64_t rattler_modes = 0;             // of grains without any link
   std::int64_t mechanisms = 0;                // K - trivial - rattler modes
   // Certificate.
-  std::int64_t floppy_generic = 0;      // lower bound of K
-  std::vector<std::uint64_t> primes;    // that gave `floppy` for the actual positions
-  bool certified = false;               // bounds meet, or two primes agree
-  bool bounds_meet = false;             // K_generic = K: proved from both sides
-  std::int64_t gear_modes = 0;          // bipartite components with a loop: R_i w_i = +-c (each is part of K)
-  std::int64_t bodies = 0;              // after contraction
+  std::int64_t floppy_generic = 0;    // lower bound of K
+  std::vector<std::uint64_t> primes;  // that gave `floppy` for the actual positions
+  bool certified = false;             // bounds meet, or two primes agree
+  bool bounds_meet = false;           // K_generic = K: proved from both sides
+  std::int64_t gear_modes = 0;        // bipartite components with a loop: R_i w_i = +-c (1 each, in space 3, part of K)
+  std::int64_t bodies = 0;            // after contraction
   std::int64_t eliminated_columns = 0;  // of step 3
   RankTimings timings;
 };
 
 // Throws InputError if cell_free is asked for without a cell.
 ExactRank exact_rank(const LinkNetwork& network, NetworkLaw law, bool cell_free);
+ExactRank exact_rank(const SphereNetwork& network, NetworkLaw law, bool cell_free);
 
 // Components of the graph of tangential rows that are bipartite and hold a loop: their disks can turn like gears,
-// R_i w_i = +c on one side and -c on the other, whatever the positions (proportional lever arms). Each is a list of
-// grains. Empty for frictionless networks; a component with a moment row inside is none.
+// R_i w_i = +c on one side and -c on the other, whatever the positions (proportional lever arms); in space c is a
+// vector: three null vectors each. Each is a list of grains. Empty for frictionless networks; a component with a moment
+// row inside is none.
 std::vector<std::vector<std::int32_t>> gear_components(const LinkNetwork& network, NetworkLaw law);
+std::vector<std::vector<std::int32_t>> gear_components(const SphereNetwork& network, NetworkLaw law);
 
 }  // namespace isostat

@@ -15,20 +15,26 @@ namespace {
 
 using F = FirstField;
 
-// One row of a pruned body about its first grain: vx, vy of that grain and its spin. In the field, and in double
+// One row of a pruned body about its first grain: velocity of that grain and its spin. In the field, and in double
 // precision with the arm in units of the radius: there it only says which pivot is large.
+template <int Most>
 struct PrunedRow {
-  std::array<F, 3> exact{};
-  std::array<double, 3> size{};
+  std::array<F, Most> exact{};
+  std::array<double, Most> size{};
 };
 
-class PrunedRows {
+template <class Network>
+class PrunedRows;
+
+template <>
+class PrunedRows<LinkNetwork> {
  public:
+  using Geometry = FieldGeometry<F>;
   PrunedRows(const LinkNetwork& network, const ReducedProblem<F>& problem, const FieldGeometry<F>& geometry)
       : network_(network), packing_(network.packing), problem_(problem), geometry_(geometry) {}
 
-  PrunedRow about(std::size_t grain, std::int32_t body, std::size_t at) const {
-    PrunedRow result;
+  PrunedRow<3> about(std::size_t grain, std::int32_t body, std::size_t at) const {
+    PrunedRow<3> result;
     result.exact = problem_.rows.at(at, body);
     const Rows<F>::Row& row = problem_.rows.rows[at];
     const FieldVec<F> x = geometry_.placed(grain, problem_.bodies.placement[grain]);
@@ -79,9 +85,52 @@ class PrunedRows {
   const FieldGeometry<F>& geometry_;
 };
 
+template <>
+class PrunedRows<SphereNetwork> {
+ public:
+  using Geometry = SphereGeometry<F>;
+  PrunedRows(const SphereNetwork& network, const ReducedProblem<F, SphereNetwork>& problem, const Geometry& geometry)
+      : packing_(network.packing), problem_(problem), geometry_(geometry) {}
+
+  PrunedRow<kSphereDofs> about(std::size_t grain, std::int32_t body, std::size_t at) const {
+    PrunedRow<kSphereDofs> result;
+    result.exact = problem_.rows.at(at, body);
+    const Real3<F> force{result.exact[0], result.exact[1], result.exact[2]},
+        turn = cross_3d<F>(geometry_.placed(grain, problem_.bodies.placement[grain]), force);
+    for (std::size_t k = 0; k < 3; ++k) result.exact[3 + k] = result.exact[3 + k] - turn[k];
+
+    const auto& row = problem_.rows.rows[at];
+    const Link<3>& link = packing_.links[idx(row.link)];
+    const LinkLoad3<double> load = unit_load<double>(SphereRow{row.kind, row.axis}, frame(ends(packing_, link)));
+    const auto add = [&](std::int32_t end, double sign, const Real3<double>& moment) {
+      if (problem_.bodies.body_of[idx(end)] != body) return;
+      const Real3<double> on{sign * load.force[0], sign * load.force[1], sign * load.force[2]},
+          turned = cross_3d<double>((placed(idx(end)) - placed(grain)).c, on);
+      for (std::size_t k = 0; k < 3; ++k) {
+        result.size[k] += on[k];
+        result.size[3 + k] += (moment[k] + turned[k]) / packing_.bodies.radius[grain];
+      }
+    };
+    add(link.i, -1, load.moment_i), add(link.j, 1, load.moment_j);
+    return result;
+  }
+
+ private:
+  Vec3 placed(std::size_t grain) const {
+    const Vec3& r = packing_.bodies.position[grain];
+    return packing_.cell ? r + packing_.cell->offset(problem_.bodies.placement[grain]) : r;
+  }
+  const Packing<3>& packing_;
+  const ReducedProblem<F, SphereNetwork>& problem_;
+  const Geometry& geometry_;
+};
+
 // Columns left without a pivot when the rows are eliminated, largest entry first, nonzero in the field.
-std::array<bool, 3> without_pivot(std::array<PrunedRow, 3> a, std::size_t count, std::size_t dofs) {
-  std::array<bool, 3> none = {true, true, true};
+template <std::size_t Most>
+std::array<bool, Most> without_pivot(std::array<PrunedRow<static_cast<int>(Most)>, Most> a, std::size_t count,
+                                     std::size_t dofs) {
+  std::array<bool, Most> none;
+  none.fill(true);
   for (std::size_t done = 0; done < count; ++done) {
     std::size_t p = count, pivot = dofs;
     for (std::size_t k = done; k < count; ++k)
@@ -103,17 +152,17 @@ std::array<bool, 3> without_pivot(std::array<PrunedRow, 3> a, std::size_t count,
   return none;
 }
 
-}  // namespace
-
 // A null vector of G is a motion of the contracted bodies, so the columns of one grain in each body are enough. The
 // unknowns of body_rows are V at the origin of the frame and W, those of G the velocity of the centre and w: column w
 // of G is column W plus columns V of the same body, eliminated just before. Likewise peculiar and absolute velocities
 // differ by columns V in the strain columns, which come last. So the same columns depend on earlier ones. Pruned
 // bodies stand first in the order, in the order of their removal, each with its columns sorted by its pivots.
-std::vector<char> dependent_columns(const LinkNetwork& network, NetworkLaw law, bool cell_free) {
-  const Packing<2>& packing = network.packing;
+template <class Network>
+std::vector<char> dependent_of(const Network& network, NetworkLaw law, bool cell_free) {
+  const auto& packing = network.packing;
+  constexpr int kMost = kMostDofs<Network>;
   if (cell_free && !packing.cell) throw InputError("command line", 0, "--cell", "free", "the input has no cell");
-  const ReducedProblem<F> problem = reduce_problem<F>(network, law, cell_free);
+  const auto problem = reduce_problem<F>(network, law, cell_free);
   const DofLayout layout = dof_layout(network, law, cell_free);
   std::vector<char> dependent(idx(layout.size()), 0);
   std::vector<std::size_t> column_of_body(idx(problem.bodies.count));
@@ -122,14 +171,14 @@ std::vector<char> dependent_columns(const LinkNetwork& network, NetworkLaw law, 
       column_of_body[idx(problem.bodies.body_of[i])] = i * idx(layout.per_body);
 
   const auto per_body = idx(layout.per_body);
-  const FieldGeometry<F> geometry = exact_geometry<F>(network);
-  const PrunedRows rows_about(network, problem, geometry);
-  for (const PrunedBody& pruned : problem.network.pruned) {
+  const typename PrunedRows<Network>::Geometry geometry = exact_geometry<F>(network);
+  const PrunedRows<Network> rows_about(network, problem, geometry);
+  for (const PrunedBody<kMost>& pruned : problem.network.pruned) {
     const std::size_t column = column_of_body[idx(pruned.body)];
-    std::array<PrunedRow, 3> mine;
+    std::array<PrunedRow<kMost>, kMost> mine;
     for (std::size_t k = 0; k < idx(pruned.count); ++k)
       mine[k] = rows_about.about(column / per_body, pruned.body, idx(pruned.rows[k]));
-    const auto none = without_pivot(mine, idx(pruned.count), per_body);
+    const auto none = without_pivot<kMost>(mine, idx(pruned.count), per_body);
     for (std::size_t d = 0; d < per_body; ++d) dependent[column + d] = none[d];
   }
   for (std::int32_t b : problem.network.bodies)  // without rows: free
@@ -151,6 +200,15 @@ std::vector<char> dependent_columns(const LinkNetwork& network, NetworkLaw law, 
       if (attempt == 3) throw;
     }
   }
+}
+
+}  // namespace
+
+std::vector<char> dependent_columns(const LinkNetwork& network, NetworkLaw law, bool cell_free) {
+  return dependent_of(network, law, cell_free);
+}
+std::vector<char> dependent_columns(const SphereNetwork& network, NetworkLaw law, bool cell_free) {
+  return dependent_of(network, law, cell_free);
 }
 
 }  // namespace isostat

@@ -4,11 +4,13 @@
 #include <vector>
 
 #include "analysis/input.hpp"
+#include "analysis/sphere_network.hpp"
 #include "dem/state/packing.hpp"
 
 namespace isostat {
 
-// By column of G (analysis/rigidity/link_rows.hpp): 1 where it depends on the columns eliminated before it.
+// By column of G (link_rows.hpp, link_rows_3d.hpp): 1 where it depends on the columns eliminated before it.
 std::vector<char> dependent_columns(const LinkNetwork& network, NetworkLaw law, bool cell_free);
+std::vector<char> dependent_columns(const SphereNetwork& network, NetworkLaw law, bool cell_free);
 
 }  // namespace isostat

@@ -12,10 +12,10 @@ namespace {
 
 // One supernode after the other, children before parents: its front is numbered, filled with the rows that begin in it
 // and with what its children left, eliminated, and its Schur complement kept for its parent.
-template <class F>
+template <class F, int Most>
 class FrontSequence {
  public:
-  FrontSequence(const EliminationTree& tree, const std::vector<std::int8_t>& dofs, const NodeRows<F>& rows,
+  FrontSequence(const EliminationTree& tree, const std::vector<std::int8_t>& dofs, const NodeRows<F, Most>& rows,
                 std::uint64_t seed)
       : tree_(tree), dofs_(dofs), rows_(rows), seed_(seed), updates_(tree.supernodes.size()), local_(dofs.size(), 0) {
     sort_rows();
@@ -41,7 +41,7 @@ class FrontSequence {
     for (std::int32_t e = row_start_[s]; e < row_start_[s + 1]; ++e) {
       const auto r = idx(row_list_[idx(e)]);
       at_.clear(), value_.clear();
-      for (const RowBlock<F>& block : blocks(r)) {
+      for (const RowBlock<F, Most>& block : blocks(r)) {
         const std::int32_t node = node_of(block), begin = local_[idx(tree_.position[idx(node)])];
         for (std::int32_t d = 0; d < dofs_[idx(node)]; ++d)
           if (!block.at[idx(d)].is_zero()) at_.push_back(begin + d), value_.push_back(block.at[idx(d)]);
@@ -91,12 +91,12 @@ class FrontSequence {
 
  private:
   std::int32_t dofs_at(std::int32_t position) const { return dofs_[idx(tree_.node_at[idx(position)])]; }
-  std::span<const RowBlock<F>> blocks(std::size_t row) const { return rows_.rows.of(idx(rows_.selected[row])); }
-  std::int32_t node_of(const RowBlock<F>& block) const { return rows_.node_of_body[idx(block.body)]; }
+  std::span<const RowBlock<F, Most>> blocks(std::size_t row) const { return rows_.rows.of(idx(rows_.selected[row])); }
+  std::int32_t node_of(const RowBlock<F, Most>& block) const { return rows_.node_of_body[idx(block.body)]; }
 
   std::int32_t first_supernode(std::size_t row) const {
     std::int32_t first = std::numeric_limits<std::int32_t>::max();
-    for (const RowBlock<F>& block : blocks(row)) first = std::min(first, tree_.position[idx(node_of(block))]);
+    for (const RowBlock<F, Most>& block : blocks(row)) first = std::min(first, tree_.position[idx(node_of(block))]);
     return tree_.supernode_of[idx(first)];
   }
   void sort_rows() {  // by the supernode of their first eliminated node
@@ -111,7 +111,7 @@ class FrontSequence {
 
   const EliminationTree& tree_;
   const std::vector<std::int8_t>& dofs_;
-  const NodeRows<F>& rows_;
+  const NodeRows<F, Most>& rows_;
   std::uint64_t seed_;
   ModularFront<F> front_;
   std::int32_t pivots_ = 0;
@@ -127,13 +127,14 @@ class FrontSequence {
 }  // namespace
 
 template <class F>
-ModularLdlt<F>::ModularLdlt(const EliminationTree& tree, const std::vector<std::int8_t>& dofs, const NodeRows<F>& rows,
-                            std::uint64_t seed, bool keep) {
+template <int Most>
+ModularLdlt<F>::ModularLdlt(const EliminationTree& tree, const std::vector<std::int8_t>& dofs,
+                            const NodeRows<F, Most>& rows, std::uint64_t seed, bool keep) {
   offset_.resize(dofs.size());
   for (std::size_t n = 0; n < dofs.size(); ++n) offset_[n] = columns_, columns_ += dofs[n];
   dependent_.assign(idx(columns_), 0);
 
-  FrontSequence<F> fronts(tree, dofs, rows, seed);
+  FrontSequence<F, Most> fronts(tree, dofs, rows, seed);
   for (std::size_t s = 0; s < tree.supernodes.size(); ++s) {
     fronts.place_supernode(s);
     fronts.add_rows(s);
@@ -202,5 +203,15 @@ std::vector<F> ModularLdlt<F>::solve(std::vector<F> b) const {
 template class ModularLdlt<FirstField>;
 template class ModularLdlt<SecondField>;
 template class ModularLdlt<WideField>;
+#define ISOSTAT_LDLT_OF(F, MOST)                                                                \
+  template ModularLdlt<F>::ModularLdlt(const EliminationTree&, const std::vector<std::int8_t>&, \
+                                       const NodeRows<F, MOST>&, std::uint64_t, bool);
+ISOSTAT_LDLT_OF(FirstField, 3)
+ISOSTAT_LDLT_OF(SecondField, 3)
+ISOSTAT_LDLT_OF(WideField, 3)
+ISOSTAT_LDLT_OF(FirstField, 6)
+ISOSTAT_LDLT_OF(SecondField, 6)
+ISOSTAT_LDLT_OF(WideField, 6)
+#undef ISOSTAT_LDLT_OF
 
 }  // namespace isostat

@@ -17,9 +17,9 @@
 namespace isostat {
 
 // The rows that are eliminated, and the node that each of their bodies has become (-1 does not occur in them).
-template <class F>
+template <class F, int Most = 3>
 struct NodeRows {
-  const Rows<F>& rows;
+  const Rows<F, Most>& rows;
   const std::vector<std::int32_t>& selected;      // indices into rows
   const std::vector<std::int32_t>& node_of_body;  // the strain's last
 };
@@ -27,8 +27,9 @@ struct NodeRows {
 template <class F>
 class ModularLdlt {
  public:
-  // dofs[node] in 1..3. keep: store L for solving (memory: the factor). Throws RandomizationFailed.
-  ModularLdlt(const EliminationTree& tree, const std::vector<std::int8_t>& dofs, const NodeRows<F>& rows,
+  // dofs[node] in 1..Most. keep: store L for solving (memory: the factor). Throws RandomizationFailed.
+  template <int Most>
+  ModularLdlt(const EliminationTree& tree, const std::vector<std::int8_t>& dofs, const NodeRows<F, Most>& rows,
               std::uint64_t seed, bool keep);
 
   std::int64_t rank() const { return rank_; }
@@ -61,5 +62,15 @@ class ModularLdlt {
 extern template class ModularLdlt<FirstField>;
 extern template class ModularLdlt<SecondField>;
 extern template class ModularLdlt<WideField>;
+#define ISOSTAT_LDLT_OF(F, MOST)                                                                       \
+  extern template ModularLdlt<F>::ModularLdlt(const EliminationTree&, const std::vector<std::int8_t>&, \
+                                              const NodeRows<F, MOST>&, std::uint64_t, bool);
+ISOSTAT_LDLT_OF(FirstField, 3)
+ISOSTAT_LDLT_OF(SecondField, 3)
+ISOSTAT_LDLT_OF(WideField, 3)
+ISOSTAT_LDLT_OF(FirstField, 6)
+ISOSTAT_LDLT_OF(SecondField, 6)
+ISOSTAT_LDLT_OF(WideField, 6)
+#undef ISOSTAT_LDLT_OF
 
 }  // namespace isostat

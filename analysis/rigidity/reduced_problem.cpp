@@ -1,13 +1,15 @@
 #include "analysis/rigidity/reduced_problem.hpp"
 
+#include "analysis/rigidity/rigid_spheres.hpp"
 #include "dem/solver/clocks.hpp"
 #include "geometry/base/index.hpp"
 
 namespace isostat {
 
-template <class F>
-ReducedProblem<F> reduce_problem(const LinkNetwork& network, NetworkLaw law, bool cell_free) {
-  ReducedProblem<F> p;
+template <class F, class Network>
+ReducedProblem<F, Network> reduce_problem(const Network& network, NetworkLaw law, bool cell_free) {
+  constexpr int kMost = kMostDofs<Network>;
+  ReducedProblem<F, Network> p;
   p.per_body = dof_layout(network, law, cell_free).per_body;
 
   double start = wall_seconds();
@@ -15,7 +17,7 @@ ReducedProblem<F> reduce_problem(const LinkNetwork& network, NetworkLaw law, boo
   p.contraction_seconds = wall_seconds() - start;
 
   start = wall_seconds();
-  p.rows = body_rows(network, law, cell_free, p.bodies, exact_geometry<F>(network));
+  p.rows = body_rows<F>(network, law, cell_free, p.bodies, exact_geometry<F>(network));
   p.network = prune(p.rows, p.bodies.count, p.per_body);
   p.assembly_seconds = wall_seconds() - start;
 
@@ -24,7 +26,7 @@ ReducedProblem<F> reduce_problem(const LinkNetwork& network, NetworkLaw law, boo
   p.node_of_body.assign(bodies + 1, -1);
   std::vector<char> touched(bodies + 1, 0);
   for (std::int32_t r : p.network.rows)
-    for (const RowBlock<F>& block : p.rows.of(idx(r))) touched[idx(block.body)] = 1;
+    for (const RowBlock<F, kMost>& block : p.rows.of(idx(r))) touched[idx(block.body)] = 1;
   const auto add_node = [&](std::int32_t body, int dofs) {
     p.node_of_body[idx(body)] = static_cast<std::int32_t>(p.body_of_node.size());
     p.body_of_node.push_back(body);
@@ -36,7 +38,7 @@ ReducedProblem<F> reduce_problem(const LinkNetwork& network, NetworkLaw law, boo
     else
       ++p.free_bodies;
   }
-  if (cell_free) add_node(p.bodies.count, 2);
+  if (cell_free) add_node(p.bodies.count, kDimension<Network>);
 
   std::vector<std::pair<std::int32_t, std::int32_t>> edges;
   edges.reserve(p.network.rows.size());
@@ -53,7 +55,9 @@ ReducedProblem<F> reduce_problem(const LinkNetwork& network, NetworkLaw law, boo
   return p;
 }
 
-template ReducedProblem<FirstField> reduce_problem(const LinkNetwork&, NetworkLaw, bool);
-template ReducedProblem<WideField> reduce_problem(const LinkNetwork&, NetworkLaw, bool);
+template ReducedProblem<FirstField, LinkNetwork> reduce_problem(const LinkNetwork&, NetworkLaw, bool);
+template ReducedProblem<WideField, LinkNetwork> reduce_problem(const LinkNetwork&, NetworkLaw, bool);
+template ReducedProblem<FirstField, SphereNetwork> reduce_problem(const SphereNetwork&, NetworkLaw, bool);
+template ReducedProblem<WideField, SphereNetwork> reduce_problem(const SphereNetwork&, NetworkLaw, bool);
 
 }  // namespace isostat

@@ -4,14 +4,26 @@
 
 #include "analysis/rigidity/body_network.hpp"
 #include "analysis/rigidity/modular_ldlt.hpp"
+#include "analysis/rigidity/sphere_rows.hpp"
 
 namespace isostat {
 
-template <class F>
+// What depends on the dimension, by the type of the network.
+template <class Network>
+inline constexpr int kMostDofs = 3;
+template <>
+inline constexpr int kMostDofs<SphereNetwork> = kSphereDofs;
+template <class Network>
+inline constexpr int kDimension = 2;
+template <>
+inline constexpr int kDimension<SphereNetwork> = 3;
+
+template <class F, class Network = LinkNetwork>
 struct ReducedProblem {
-  RigidBodies bodies;
-  Rows<F> rows;
-  PrunedNetwork network;
+  static constexpr int kMost = kMostDofs<Network>;
+  RigidBodiesOf<kDimension<Network>> bodies;
+  Rows<F, kMost> rows;
+  PrunedNetwork<kMost> network;
   EliminationTree tree;
   std::vector<std::int32_t> node_of_body;  // -1 for pruned bodies and bodies without rows; the strain is the last body
   std::vector<std::int32_t> body_of_node;
@@ -23,12 +35,12 @@ struct ReducedProblem {
   std::int32_t strain_node() const { return node_of_body.back(); }  // -1: a fixed cell
   // The rows for ModularLdlt; they may come from another field or geometry of the same packing.
   template <class G>
-  NodeRows<G> node_rows(const Rows<G>& of) const {
+  NodeRows<G, kMost> node_rows(const Rows<G, kMost>& of) const {
     return {of, network.rows, node_of_body};
   }
 };
 
-template <class F>
-ReducedProblem<F> reduce_problem(const LinkNetwork& network, NetworkLaw law, bool cell_free);
+template <class F, class Network>
+ReducedProblem<F, Network> reduce_problem(const Network& network, NetworkLaw law, bool cell_free);
 
 }  // namespace isostat

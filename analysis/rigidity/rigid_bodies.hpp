@@ -17,20 +17,23 @@
 
 namespace isostat {
 
-struct RigidBodies {
+template <int D>
+struct RigidBodiesOf {
   static constexpr std::int32_t held = -1;  // the number of all bodies with a grain that is held: without dofs
   std::vector<std::int32_t> body_of;        // grain -> body, bodies numbered 0.. by their first grain
-  std::vector<ImageShift<2>> placement;     // grain -> image a_i: x_i = r_i + a_i L lies in the frame of its body
+  std::vector<ImageShift<D>> placement;     // grain -> image a_i: x_i = r_i + a_i L lies in the frame of its body
   std::int32_t count = 0;
 
-  bool same(const Link<2>& link) const { return body_of[idx(link.i)] == body_of[idx(link.j)]; }
+  bool same(const Link<D>& link) const { return body_of[idx(link.i)] == body_of[idx(link.j)]; }
   // Image of the body of j that a link i -> j (shift s) is about, seen from the body of i.
-  ImageShift<2> image(std::int32_t i, std::int32_t j, const ImageShift<2>& shift) const {
+  ImageShift<D> image(std::int32_t i, std::int32_t j, ImageShift<D> shift) const {
     const auto &a = placement[idx(i)], &b = placement[idx(j)];
-    return {shift[0] + a[0] - b[0], shift[1] + a[1] - b[1]};
+    for (std::size_t k = 0; k < D; ++k) shift[k] += a[k] - b[k];
+    return shift;
   }
-  ImageShift<2> image(const Link<2>& link) const { return image(link.i, link.j, link.shift); }
+  ImageShift<D> image(const Link<D>& link) const { return image(link.i, link.j, link.shift); }
 };
+using RigidBodies = RigidBodiesOf<2>;
 
 // Frictionless networks have no pins: without beams every grain stays its own body. Overlaps neither glue nor pin.
 RigidBodies contract_rigid_bodies(const LinkNetwork& network, NetworkLaw law);

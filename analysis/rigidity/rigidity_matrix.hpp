@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/rigidity/link_rows.hpp"
+#include "analysis/sphere_network.hpp"
 
 namespace isostat {
 
@@ -17,6 +18,7 @@ struct RigidityMatrix {
   std::vector<double> value;              // [-] normal, tangential in velocities; [a] at spins; strains [a]
   std::vector<std::int32_t> link_of_row;  // LinkNetwork::links()
   std::vector<RowKind> kind;
+  std::vector<std::int8_t> axis;  // in space: Cartesian, see link_rows_3d.hpp; empty in the plane
 
   std::int64_t rows() const { return static_cast<std::int64_t>(row_start.size()) - 1; }
   std::int64_t columns() const { return layout.size(); }
@@ -29,11 +31,29 @@ struct RigidityMatrix {
 
 // Throws InputError if cell_free is asked for without a cell.
 RigidityMatrix rigidity_matrix(const LinkNetwork& network, NetworkLaw law, bool cell_free);
+RigidityMatrix rigidity_matrix(const SphereNetwork& network, NetworkLaw law, bool cell_free);
+
+// The same with the three rows of each contact turned into its frame: n . v_c and v_c along two tangents (kinds normal,
+// tangential, tangential), where stiffness is diagonal. The rotation is orthogonal: null spaces and singular values
+// stay.
+RigidityMatrix in_contact_frames(const SphereNetwork& network, const RigidityMatrix& g);
+// The direction of such a row: n, or one of the two tangents.
+Vec3 axis_in_frame(const SphereNetwork& network, const RigidityMatrix& in_frames, std::size_t row);
 
 // Body velocities of a packing in the order of the columns, strain rates appended (a free cell only).
 std::vector<double> body_velocities(const Packing<2>& packing, const DofLayout& layout, const Vec2& strain_rate);
+std::vector<double> body_velocities(const Packing<3>& packing, const DofLayout& layout, const Vec3& strain_rate);
 
 // Forces of a network's links (N, T, M as stored; pressure and friction of an overlap) in the order of the rows.
 std::vector<double> link_forces(const LinkNetwork& network, const RigidityMatrix& matrix);
+// In Cartesian rows N n + T and M, where there is a normal row alone N.
+std::vector<double> link_forces(const SphereNetwork& network, const RigidityMatrix& matrix);
+
+// Per link, from numbers by Cartesian row: N, T and M, zero where there is no row.
+struct SphereForces {
+  std::vector<double> normal;
+  std::vector<Vec3> tangential, moment;
+};
+SphereForces by_link(const SphereNetwork& network, const RigidityMatrix& matrix, const std::vector<double>& of_row);
 
 }  // namespace isostat

@@ -11,34 +11,37 @@
 
 namespace isostat {
 
-template <class F>
+// Most: dofs of a body, 3 in the plane (Vx, Vy, W; of the strain e_1, e_2, nothing), 6 in space (V, W; of the strain
+// e_1, e_2, e_3, nothing).
+template <class F, int Most = 3>
 struct RowBlock {
   std::int32_t body = 0;
-  std::array<F, 3> at{};  // of the body's dofs Vx, Vy, W; of the strain e_1, e_2, nothing
+  std::array<F, Most> at{};
 };
 
-template <class F>
+template <class F, int Most = 3>
 struct Rows {
   struct Row {
     std::uint32_t begin = 0;  // first block
-    std::int32_t link = 0;    // of LinkNetwork
+    std::int32_t link = 0;    // of the network
     RowKind kind = RowKind::normal;
+    std::int8_t axis = 0;  // in space, see link_rows_3d.hpp
   };
-  std::vector<RowBlock<F>> blocks;  // a body at most once in a row, the strain last
+  std::vector<RowBlock<F, Most>> blocks;  // a body at most once in a row, the strain last
   std::vector<Row> rows;
 
   std::size_t size() const { return rows.size(); }
-  std::span<const RowBlock<F>> of(std::size_t row) const {
+  std::span<const RowBlock<F, Most>> of(std::size_t row) const {
     const std::size_t begin = rows[row].begin, end = row + 1 < rows.size() ? rows[row + 1].begin : blocks.size();
     return {blocks.data() + begin, end - begin};
   }
-  const std::array<F, 3>& at(std::size_t row, std::int32_t body) const {  // body takes part in the row
-    const RowBlock<F>* block = blocks.data() + rows[row].begin;
+  const std::array<F, Most>& at(std::size_t row, std::int32_t body) const {  // body takes part in the row
+    const RowBlock<F, Most>* block = blocks.data() + rows[row].begin;
     while (block->body != body) ++block;
     return block->at;
   }
-  void begin_row(std::int32_t link, RowKind kind) {
-    rows.push_back({static_cast<std::uint32_t>(blocks.size()), link, kind});
+  void begin_row(std::int32_t link, RowKind kind, int axis = 0) {
+    rows.push_back({static_cast<std::uint32_t>(blocks.size()), link, kind, static_cast<std::int8_t>(axis)});
   }
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <type_traits>
 
 #include "analysis/network/coordination.hpp"
 #include "analysis/rigidity/clusters.hpp"
@@ -22,12 +23,14 @@ constexpr std::int64_t kNearNullDofs = 20000;
 constexpr int kNearNullValues = 6;
 
 // Null modes that vanish when the rattlers and their links are taken away (rattlers of a cohesionless state may touch).
-std::int64_t rattler_modes(const AnalysisInput& input, NetworkLaw law, bool cell_free, const ExactRank& whole) {
+template <class Network>
+std::int64_t rattler_modes(const AnalysisInput& input, const Network& network, NetworkLaw law, bool cell_free,
+                           const ExactRank& whole) {
   if (input.triangles) return whole.rattler_modes;
-  const Packing<2>& packing = input.packing();
+  const auto& packing = network.packing;
   const Coordination c = coordination(packing, read_forces(input));
   bool linked = false;
-  for (const Link<2>& l : packing.links) linked = linked || c.rattler[idx(l.i)] || c.rattler[idx(l.j)];
+  for (const auto& l : packing.links) linked = linked || c.rattler[idx(l.i)] || c.rattler[idx(l.j)];
   if (!linked) return whole.rattler_modes;
   std::vector<std::int32_t> grains, links;
   const auto stays = [&](std::int32_t grain) { return !c.rattler[idx(grain)]; };
@@ -37,11 +40,12 @@ std::int64_t rattler_modes(const AnalysisInput& input, NetworkLaw law, bool cell
     if (stays(packing.links[l].i) && stays(packing.links[l].j)) links.push_back(static_cast<std::int32_t>(l));
   if (std::none_of(grains.begin(), grains.end(), [&](std::int32_t g) { return is_free(packing.part, idx(g)); }))
     return whole.floppy - whole.trivial;
-  const OwnedNetwork backbone = part_of(packing, grains, links);
+  const auto backbone = part_of(network, grains, links);
   return whole.floppy - exact_rank(backbone.view(), law, cell_free).floppy;
 }
 
-Json near_null(const LinkNetwork& network, NetworkLaw law, const AnalysisOptions& options, const ExactRank& rank) {
+template <class Network>
+Json near_null(const Network& network, NetworkLaw law, const AnalysisOptions& options, const ExactRank& rank) {
   if (rank.dofs > kNearNullDofs && !options.near_null)
     return Json{
         {"values", nullptr},
@@ -53,14 +57,12 @@ Json near_null(const LinkNetwork& network, NetworkLaw law, const AnalysisOptions
   }
 }
 
-}  // namespace
-
-Json rigidity_section(const AnalysisInput& input, const AnalysisOptions& options) {
-  const Packing<2>& packing = input.packing();
+template <class Network>
+Json rigidity_of(const Network& network, const AnalysisInput& input, const AnalysisOptions& options) {
+  const auto& packing = network.packing;
   const NetworkLaw law = input.network_law(options);
-  const LinkNetwork network = input.network();
   ExactRank r = exact_rank(network, law, options.cell_free);
-  r.rattler_modes = rattler_modes(input, law, options.cell_free, r);
+  r.rattler_modes = rattler_modes(input, network, law, options.cell_free, r);
   r.mechanisms = r.floppy - r.trivial - r.rattler_modes;
 
   Json gears = Json::array();
@@ -99,16 +101,19 @@ Json rigidity_section(const AnalysisInput& input, const AnalysisOptions& options
                 {"near_null_singular_values", near_null(network, law, options, r)}}}};
 }
 
-Json clusters_section(const AnalysisInput& input, const AnalysisOptions& options) {
-  const RigidClusters found = rigid_clusters(input.network(), input.network_law(options), options.cell_free);
+template <class Network>
+Json clusters_of(const Network& network, const AnalysisInput& input, const AnalysisOptions& options) {
+  constexpr std::size_t kAxes = std::is_same_v<Network, SphereNetwork> ? 3 : 2;
+  const RigidClusters found = rigid_clusters(network, input.network_law(options), options.cell_free);
   Json sizes = Json::array(), list = Json::array();
   std::int64_t hyperstatic = 0, spanning = 0;
   for (const RigidCluster& c : found.clusters) {
     sizes.push_back(c.grains);
     hyperstatic += c.hyperstatic > 0;
-    spanning += c.spans[0] || c.spans[1];
-    list.push_back(
-        {{"grains", c.grains}, {"links", c.links}, {"H", c.hyperstatic}, {"spans", {c.spans[0], c.spans[1]}}});
+    spanning += c.spans[0] || c.spans[1] || c.spans[2];
+    Json spans = Json::array();
+    for (std::size_t k = 0; k < kAxes; ++k) spans.push_back(c.spans[k]);
+    list.push_back({{"grains", c.grains}, {"links", c.links}, {"H", c.hyperstatic}, {"spans", spans}});
   }
   std::int64_t alone = 0;
   if (input.triangles) {
@@ -120,7 +125,7 @@ Json clusters_section(const AnalysisInput& input, const AnalysisOptions& options
     }
     alone = static_cast<std::int64_t>(all.size() - members.size());
   } else {
-    for (std::size_t i = 0; i < idx(input.network().free); ++i) alone += found.cluster_of_grain[i] < 0;
+    for (std::size_t i = 0; i < idx(network.free); ++i) alone += found.cluster_of_grain[i] < 0;
   }
   return Json{{"sizes", sizes},
               {"hyperstatic", hyperstatic},
@@ -130,19 +135,24 @@ Json clusters_section(const AnalysisInput& input, const AnalysisOptions& options
               {"list", list}};
 }
 
-std::vector<Table> clusters_tables(const AnalysisInput& input, const AnalysisOptions& options) {
-  const Packing<2>& packing = input.packing();
-  const RigidClusters found = rigid_clusters(input.network(), input.network_law(options), options.cell_free);
+template <class Network>
+std::vector<Table> clusters_tables_of(const Network& network, const AnalysisInput& input,
+                                      const AnalysisOptions& options) {
+  constexpr std::size_t kAxes = std::is_same_v<Network, SphereNetwork> ? 3 : 2;
+  const auto& packing = network.packing;
+  const RigidClusters found = rigid_clusters(network, input.network_law(options), options.cell_free);
   Table grains{"clusters.grains", {"id", "cluster"}, {}};
-  for (std::size_t i = 0; i < idx(input.network().free); ++i)
+  for (std::size_t i = 0; i < idx(network.free); ++i)
     grains.rows.push_back({static_cast<double>(packing.bodies.id[i]), static_cast<double>(found.cluster_of_grain[i])});
   Table links{"clusters.links", {"i", "j", "s1", "s2", "cluster"}, {}};
+  if (kAxes == 3) links.columns.insert(links.columns.end() - 1, "s3");
   for (std::size_t l = 0; l < packing.links.size(); ++l) {
-    const Link<2>& link = packing.links[l];
-    links.rows.push_back({static_cast<double>(packing.bodies.id[static_cast<std::size_t>(link.i)]),
-                          static_cast<double>(packing.bodies.id[static_cast<std::size_t>(link.j)]),
-                          static_cast<double>(link.shift[0]), static_cast<double>(link.shift[1]),
-                          static_cast<double>(found.cluster_of_link[l])});
+    const auto& link = packing.links[l];
+    std::vector<double> line{static_cast<double>(packing.bodies.id[static_cast<std::size_t>(link.i)]),
+                             static_cast<double>(packing.bodies.id[static_cast<std::size_t>(link.j)])};
+    for (std::size_t k = 0; k < kAxes; ++k) line.push_back(link.shift[k]);
+    line.push_back(found.cluster_of_link[l]);
+    links.rows.push_back(std::move(line));
   }
   if (!input.triangles) return {grains, links};
   Table overlaps{"clusters.overlaps", {"grain_i", "grain_j", "s1", "s2", "cluster"}, {}};
@@ -154,6 +164,19 @@ std::vector<Table> clusters_tables(const AnalysisInput& input, const AnalysisOpt
                              static_cast<double>(found.cluster_of_link[packing.links.size() + a])});
   }
   return {grains, links, overlaps};
+}
+
+}  // namespace
+
+Json rigidity_section(const AnalysisInput& input, const AnalysisOptions& options) {
+  return input.packing_3d ? rigidity_of(input.spheres(), input, options) : rigidity_of(input.network(), input, options);
+}
+Json clusters_section(const AnalysisInput& input, const AnalysisOptions& options) {
+  return input.packing_3d ? clusters_of(input.spheres(), input, options) : clusters_of(input.network(), input, options);
+}
+std::vector<Table> clusters_tables(const AnalysisInput& input, const AnalysisOptions& options) {
+  return input.packing_3d ? clusters_tables_of(input.spheres(), input, options)
+                          : clusters_tables_of(input.network(), input, options);
 }
 
 }  // namespace isostat

@@ -1,4 +1,4 @@
-// Sections of `analyze` about rigidity and stiffness (docs/rigidity.md has every key). All need a planar input.
+// Sections of `analyze` about rigidity and stiffness (docs/rigidity.md has every key).
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 #include <vector>

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "analysis/rigidity/clusters.hpp"
 #include "analysis/rigidity/exact_rank.hpp"
 #include "analysis/rigidity/independent_columns.hpp"
+#include "analysis/rigidity/link_rows_3d.hpp"
 #include "analysis/rigidity/part_of_packing.hpp"
 #include "analysis/rigidity/rigidity_matrix.hpp"
 #include "analysis/stiffness/pseudo_inverse.hpp"
@@ -25,7 +27,8 @@ NullVector scaled(Vector v) {
   return {std::move(v), 0};
 }
 
-PseudoInverse normal_inverse(const LinkNetwork& network, NetworkLaw law, bool cell_free, const RigidityMatrix& g) {
+template <class Network>
+PseudoInverse normal_inverse(const Network& network, NetworkLaw law, bool cell_free, const RigidityMatrix& g) {
   return PseudoInverse(weighted_normal_matrix(g, Vector(idx(g.rows()), 1.0)),
                        dependent_columns(network, law, cell_free), SparseCholesky::Form::definite);
 }
@@ -41,7 +44,8 @@ Vector project_to_self_stress(const RigidityMatrix& g, const PseudoInverse& inve
 
 // Orthonormal states of `packing`, up to `wanted`, orthogonal to those in `known`: unit forces projected, kept when a
 // share of their length survives. The number to be found is exact, the share only picks which unit forces are used.
-std::vector<Vector> independent_states(const LinkNetwork& network, NetworkLaw law, bool cell_free, std::size_t wanted,
+template <class Network>
+std::vector<Vector> independent_states(const Network& network, NetworkLaw law, bool cell_free, std::size_t wanted,
                                        std::vector<Vector> known) {
   constexpr double kShare[] = {0.1, 1e-3, 1e-6};
   const RigidityMatrix g = rigidity_matrix(network, law, cell_free);
@@ -66,9 +70,21 @@ std::vector<Vector> independent_states(const LinkNetwork& network, NetworkLaw la
   return found;
 }
 
-}  // namespace
+// Clusters of points can share a link: takes the part along `known` away. False if nothing is left.
+bool stands_alone(Vector& f, const std::vector<Vector>& known) {
+  constexpr double kLeft = 1e-6;  // of its length, which was 1
+  for (int pass = 0; pass < 2; ++pass)
+    for (const Vector& q : known)
+      if (const double c = dot(q, f); c != 0)
+        for (std::size_t k = 0; k < f.size(); ++k) f[k] -= c * q[k];
+  const double length = std::sqrt(dot(f, f));
+  if (length < kLeft) return false;
+  for (double& x : f) x /= length;
+  return true;
+}
 
-std::vector<NullVector> floppy_modes(const LinkNetwork& network, NetworkLaw law, bool cell_free, std::size_t most) {
+template <class Network>
+std::vector<NullVector> floppy_modes_of(const Network& network, NetworkLaw law, bool cell_free, std::size_t most) {
   const RigidityMatrix g = rigidity_matrix(network, law, cell_free);
   const std::vector<char> dependent = dependent_columns(network, law, cell_free);
   const PseudoInverse inverse = normal_inverse(network, law, cell_free, g);
@@ -81,8 +97,9 @@ std::vector<NullVector> floppy_modes(const LinkNetwork& network, NetworkLaw law,
   return modes;
 }
 
-std::vector<NullVector> self_stress_states(const LinkNetwork& network, NetworkLaw law, bool cell_free,
-                                           std::size_t most) {
+template <class Network>
+std::vector<NullVector> self_stress_states_of(const Network& network, NetworkLaw law, bool cell_free,
+                                              std::size_t most) {
   const auto total = idx(exact_rank(network, law, cell_free).hyperstatic);
   const std::size_t wanted = std::min(most, total);
   const RigidityMatrix g = rigidity_matrix(network, law, cell_free);
@@ -93,19 +110,16 @@ std::vector<NullVector> self_stress_states(const LinkNetwork& network, NetworkLa
   std::vector<Vector> states;
   for (std::size_t c = 0; c < clusters.clusters.size() && states.size() < wanted; ++c) {
     if (clusters.clusters[c].hyperstatic <= 0) continue;
-    std::vector<std::int32_t> links;
+    const std::vector<std::int32_t>& links = clusters.links[c];
     std::vector<std::size_t> row_of;  // row of the part -> row of the whole
-    for (std::size_t l = 0; l < network.links(); ++l) {
-      if (clusters.cluster_of_link[l] != static_cast<std::int32_t>(c)) continue;
-      for (int k = 0; k < rows_of(network, l, law).count(); ++k) row_of.push_back(first_row[l] + idx(k));
-      links.push_back(static_cast<std::int32_t>(l));
-    }
-    const OwnedNetwork part = part_of(network, {}, links);
+    for (const std::int32_t l : links)
+      for (int k = 0; k < rows_of(network, idx(l), law).count(); ++k) row_of.push_back(first_row[idx(l)] + idx(k));
+    const auto part = part_of(network, {}, links);
     const auto here = std::min(wanted - states.size(), idx(clusters.clusters[c].hyperstatic));
     for (const Vector& f : independent_states(part.view(), law, cell_free, here, {})) {
       Vector whole(idx(g.rows()), 0.0);
       for (std::size_t r = 0; r < f.size(); ++r) whole[row_of[r]] = f[r];
-      states.push_back(std::move(whole));
+      if (std::is_same_v<Network, LinkNetwork> || stands_alone(whole, states)) states.push_back(std::move(whole));
     }
   }
   if (states.size() < wanted)
@@ -120,7 +134,8 @@ std::vector<NullVector> self_stress_states(const LinkNetwork& network, NetworkLa
   return result;
 }
 
-ForceSplit split_forces(const LinkNetwork& network, NetworkLaw law, bool cell_free, const std::vector<double>& forces) {
+template <class Network>
+ForceSplit split_forces_of(const Network& network, NetworkLaw law, bool cell_free, const std::vector<double>& forces) {
   const RigidityMatrix g = rigidity_matrix(network, law, cell_free);
   const PseudoInverse inverse = normal_inverse(network, law, cell_free, g);
   ForceSplit split;
@@ -129,6 +144,30 @@ ForceSplit split_forces(const LinkNetwork& network, NetworkLaw law, bool cell_fr
   for (std::size_t r = 0; r < forces.size(); ++r) split.balancing[r] -= split.self_stress[r];
   split.residual = largest(g.body_forces(split.self_stress));
   return split;
+}
+
+}  // namespace
+
+std::vector<NullVector> floppy_modes(const LinkNetwork& network, NetworkLaw law, bool cell_free, std::size_t most) {
+  return floppy_modes_of(network, law, cell_free, most);
+}
+std::vector<NullVector> floppy_modes(const SphereNetwork& network, NetworkLaw law, bool cell_free, std::size_t most) {
+  return floppy_modes_of(network, law, cell_free, most);
+}
+std::vector<NullVector> self_stress_states(const LinkNetwork& network, NetworkLaw law, bool cell_free,
+                                           std::size_t most) {
+  return self_stress_states_of(network, law, cell_free, most);
+}
+std::vector<NullVector> self_stress_states(const SphereNetwork& network, NetworkLaw law, bool cell_free,
+                                           std::size_t most) {
+  return self_stress_states_of(network, law, cell_free, most);
+}
+ForceSplit split_forces(const LinkNetwork& network, NetworkLaw law, bool cell_free, const std::vector<double>& forces) {
+  return split_forces_of(network, law, cell_free, forces);
+}
+ForceSplit split_forces(const SphereNetwork& network, NetworkLaw law, bool cell_free,
+                        const std::vector<double>& forces) {
+  return split_forces_of(network, law, cell_free, forces);
 }
 
 }  // namespace isostat

@@ -10,6 +10,7 @@
 #include "analysis/rigidity/sections.hpp"
 #include "analysis/stiffness/bases.hpp"
 #include "analysis/stiffness/sparse_cholesky.hpp"
+#include "analysis/stiffness/sphere_bases.hpp"
 #include "analysis/vector_algebra.hpp"
 
 namespace isostat {
@@ -111,6 +112,7 @@ Json split_json(const Question& q, const AnalysisInput& input) {
 }  // namespace
 
 Json bases_section(const AnalysisInput& input, const AnalysisOptions& options) {
+  if (input.packing_3d) return sphere_bases(input, options);
   const Question q = question(input, options);
   const ExactRank rank = exact_rank(q.network, q.law, q.cell_free);
   Json section{{"law", name_of(q.law)}, {"cell", q.cell_free ? "free" : "fixed"}};
@@ -126,6 +128,7 @@ Json bases_section(const AnalysisInput& input, const AnalysisOptions& options) {
 }
 
 std::vector<Table> bases_tables(const AnalysisInput& input, const AnalysisOptions& options) {
+  if (input.packing_3d) return sphere_bases_tables(input, options);
   const Question q = question(input, options);
   Table modes{"floppy_modes", {"mode", "id", "vx", "vy", "omega"}, {}};
   Table strains{"floppy_strains", {"mode", "e11", "e22"}, {}};

@@ -1,11 +1,23 @@
 #include "analysis/stiffness/link_tangent.hpp"
 
+#include <algorithm>
+
 #include "analysis/stiffness/area_tangent.hpp"
 #include "analysis/stiffness/stiffness_matrix.hpp"
 #include "dem/state/link_ends.hpp"
 #include "geometry/base/index.hpp"
 
 namespace isostat {
+
+namespace {
+
+// The foot of a grain slides along its wall.
+double turns_over(const Packing<2>& packing, const Link<2>& link, double distance) {
+  const std::size_t last = idx(std::max(link.i, link.j));
+  return last < packing.grains() ? distance : 1 / packing.feet[last - packing.grains()].turning;
+}
+
+}  // namespace
 
 LinkTangent::Response LinkTangent::operator()(double dx, double dy, double spin_i, double spin_j) const {
   const auto v = link_velocity(f, dx, dy, spin_i, spin_j);
@@ -14,7 +26,7 @@ LinkTangent::Response LinkTangent::operator()(double dx, double dy, double spin_
   const double dn = -stiffness.normal * v.normal, dt = -stiffness.tangential * v.tangential + release,
                dm = -stiffness.rolling * v.rolling;
   const double tx = -f.ny, ty = f.nx;
-  const double turn = (tx * dx + ty * dy) / f.distance;  // of the frame
+  const double turn = (tx * dx + ty * dy) / turns_over;  // of the frame
   const double stretch = v.normal / (radius_i + radius_j);
   return {dn * f.nx + dt * tx + turn * (normal * tx - tangential * f.nx),
           dn * f.ny + dt * ty + turn * (normal * ty - tangential * f.ny),
@@ -33,8 +45,9 @@ std::vector<LinkTangent> link_tangents(const LinkNetwork& network, NetworkLaw ne
   tangents.reserve(packing.links.size());
   for (const Link<2>& link : packing.links) {
     const LinkEnds<2> at = ends(packing, link);
-    tangents.push_back({frame(at), at.branch, at.radius_i, at.radius_j, link.normal_force, link.tangential_force,
-                        link.moment, link.kind == LinkKind::beam});
+    const LinkFrame<double> f = frame(at);
+    tangents.push_back({f, at.branch, at.radius_i, at.radius_j, link.normal_force, link.tangential_force, link.moment,
+                        link.kind == LinkKind::beam, turns_over(packing, link, f.distance)});
   }
   const RigidityMatrix g = rigidity_matrix(network, network_law, false);
   const std::vector<double> stiffness = row_stiffness(network, g, law);

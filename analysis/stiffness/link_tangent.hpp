@@ -17,6 +17,8 @@ struct LinkTangent {
   double radius_i, radius_j;
   double normal, tangential, moment;  // forces now
   bool is_beam = false;
+  double turns_over =
+      0;  // [a] way of j along the tangent over the angle by which it turns the frame: |r| of two bodies
   ByRow<double> stiffness{};
 
   struct Response {

@@ -10,6 +10,7 @@
 #include "analysis/stiffness/moduli.hpp"
 #include "analysis/stiffness/prestressed_modes.hpp"
 #include "analysis/stiffness/pseudo_inverse.hpp"
+#include "analysis/stiffness/sphere_stiffness.hpp"
 #include "analysis/stiffness/stiffness_matrix.hpp"
 #include "analysis/stiffness/vibration.hpp"
 #include "dem/disks/at_rest.hpp"
@@ -20,14 +21,38 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr int kReportedModes = 20, kTabulatedModes = 100;
 
-Json stiffness_of(const AnalysisInput& input) {
+// Of a state of spheres each contact has its own: the means over contacts, and over distant links.
+Json mean_stiffness(const AnalysisInput& input) {
+  SphereStiffness sum;
+  double contacts = 0, gaps = 0, distant = 0;
+  const std::vector<SphereStiffness> all = by_link(*input.packing_3d, input.spheres_state->law);
+  for (std::size_t l = 0; l < all.size(); ++l) {
+    if (!is_contact(input.packing_3d->links[l].kind)) {
+      ++gaps, distant += all[l].normal;
+      continue;
+    }
+    ++contacts, sum.normal += all[l].normal, sum.tangential += all[l].tangential, sum.rolling += all[l].rolling;
+  }
+  const auto mean = [](double total, double n) { return n > 0 ? Json(total / n) : Json(nullptr); };
+  return {{"normal", mean(sum.normal, contacts)},
+          {"tangential", mean(sum.tangential, contacts)},
+          {"rolling", mean(sum.rolling, contacts)},
+          {"distant", mean(distant, gaps)}};
+}
+
+Json stiffness_of(const AnalysisInput& input, const AnalysisOptions& options) {
+  if (input.spheres_state) return mean_stiffness(input);
+  if (input.packing_3d) {
+    const UniformStiffness k = network_stiffness(*input.packing_3d, options.stiffness);
+    return {{"normal", k.normal}, {"tangential", k.tangential}, {"rolling", k.rolling}, {"distant", k.distant}};
+  }
   if (input.triangles) {
     const TriangleLaw& t = input.triangles->law;
     return {{"modulus", t.modulus},
             {"overlap_length", t.overlap_length > 0 ? Json(t.overlap_length) : Json(nullptr)},
             {"tangential", t.tangential_stiffness}};
   }
-  const DiskLaw law = law_of(input);
+  const DiskLaw law = law_of(input, options);
   return {{"normal", law.normal_stiffness},
           {"tangential", law.tangential_stiffness},
           {"rolling", law.rolling_stiffness},
@@ -57,18 +82,48 @@ Json described(const Moduli& m) {
           {"anisotropy", sum > 0 ? Json((pure - shear) / sum) : Json(nullptr)}};
 }
 
-}  // namespace
+// Of spheres: bulk modulus and shear modulus by Voigt's averages over directions, K = sum of C_ab over a, b <= 3, by 9.
+Json described(const SphereModuli& m) {
+  Json rows = Json::array();
+  for (const auto& row : m) rows.push_back(row);
+  double bulk = 0, diagonal = 0, shear = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    for (std::size_t b = 0; b < 3; ++b) bulk += m[a][b] / 9;
+    diagonal += m[a][a], shear += m[3 + a][3 + a];
+  }
+  return {{"tensor", rows}, {"bulk", bulk}, {"shear", (diagonal - 3 * bulk) / 10 + shear / 5}};
+}
 
-Json stiffness_section(const AnalysisInput& input, const AnalysisOptions& options) {
-  const LinkNetwork network = input.network();
+std::vector<SphereStiffness> sphere_stiffness(const AnalysisInput& input, const AnalysisOptions& options) {
+  if (input.spheres_state) return by_link(*input.packing_3d, input.spheres_state->law);
+  return by_link(*input.packing_3d, network_stiffness(*input.packing_3d, options.stiffness));
+}
+
+// G with rows in which stiffness is diagonal, and that stiffness.
+struct StiffRows {
+  RigidityMatrix g;
+  std::vector<double> k;
+};
+StiffRows stiff_rows(const LinkNetwork& network, const AnalysisInput& input, const AnalysisOptions& options) {
+  RigidityMatrix g = rigidity_matrix(network, input.network_law(options), options.cell_free);
+  std::vector<double> k = row_stiffness(network, g, law_of(input, options));
+  return {std::move(g), std::move(k)};
+}
+StiffRows stiff_rows(const SphereNetwork& network, const AnalysisInput& input, const AnalysisOptions& options) {
+  RigidityMatrix g =
+      in_contact_frames(network, rigidity_matrix(network, input.network_law(options), options.cell_free));
+  std::vector<double> k = row_stiffness(g, sphere_stiffness(input, options));
+  return {std::move(g), std::move(k)};
+}
+
+template <class Network>
+Json stiffness_of_network(const Network& network, const AnalysisInput& input, const AnalysisOptions& options) {
   const NetworkLaw network_law = input.network_law(options);
-  const DiskLaw law = law_of(input);
   const ExactRank rank = exact_rank(network, network_law, options.cell_free);
-  const RigidityMatrix g = rigidity_matrix(network, network_law, options.cell_free);
-  const std::vector<double> k = row_stiffness(network, g, law);
+  const auto [g, k] = stiff_rows(network, input, options);
   const bool definite = std::all_of(k.begin(), k.end(), [](double v) { return v > 0; });
 
-  Json section{{"positive_definite", nullptr}, {"inertia", nullptr}, {"stiffness", stiffness_of(input)}};
+  Json section{{"positive_definite", nullptr}, {"inertia", nullptr}, {"stiffness", stiffness_of(input, options)}};
   section["explanation"] = explain_floppy(rank);
   std::array<std::int64_t, 2> inertia = {0, rank.rank};  // k > 0: Gt k G has the null space of G, and nothing below it
   try {
@@ -89,10 +144,39 @@ Json stiffness_section(const AnalysisInput& input, const AnalysisOptions& option
   return section;
 }
 
+Json moduli_of_spheres(const AnalysisInput& input, const AnalysisOptions& options) {
+  const SphereNetwork network = input.spheres();
+  const NetworkLaw law = input.network_law(options);
+  const ExactRank rank = exact_rank(network, law, false);
+  Json section = {{"tensor", nullptr}, {"floppy", rank.mechanisms > 0}, {"explanation", explain_floppy(rank)}};
+  try {
+    const Json values = described(elastic_moduli(network, law, sphere_stiffness(input, options)));
+    for (const auto& [key, value] : values.items()) section[key] = value;
+  } catch (const FactorisationFailed& e) {
+    section["failed"] = e.what();
+  }
+  section["stiffness"] = stiffness_of(input, options);
+  return section;
+}
+
+VibrationModes modes_of(const AnalysisInput& input, const AnalysisOptions& options, int count) {
+  const NetworkLaw law = input.network_law(options);
+  if (input.packing_3d) return vibration_modes(input.spheres(), law, sphere_stiffness(input, options), count, false);
+  return vibration_modes(input.network(), law, law_of(input, options), count, false);
+}
+
+}  // namespace
+
+Json stiffness_section(const AnalysisInput& input, const AnalysisOptions& options) {
+  return input.packing_3d ? stiffness_of_network(input.spheres(), input, options)
+                          : stiffness_of_network(input.network(), input, options);
+}
+
 Json moduli_section(const AnalysisInput& input, const AnalysisOptions& options) {
+  if (input.packing_3d) return moduli_of_spheres(input, options);
   const LinkNetwork network = input.network();
   const NetworkLaw network_law = input.network_law(options);
-  const DiskLaw law = law_of(input);
+  const DiskLaw law = law_of(input, options);
   const ExactRank rank = exact_rank(network, network_law, false);
   Json section = {{"tensor", nullptr}, {"floppy", rank.mechanisms > 0}, {"explanation", explain_floppy(rank)}};
   try {
@@ -101,7 +185,7 @@ Json moduli_section(const AnalysisInput& input, const AnalysisOptions& options) 
   } catch (const FactorisationFailed& e) {
     section["failed"] = e.what();
   }
-  section["stiffness"] = stiffness_of(input);
+  section["stiffness"] = stiffness_of(input, options);
   // Friction between triangles has no geometric term here.
   if (read_forces(input).known && !(input.triangles && network_law == NetworkLaw::friction)) {
     try {
@@ -116,12 +200,9 @@ Json moduli_section(const AnalysisInput& input, const AnalysisOptions& options) 
 }
 
 Json modes_section(const AnalysisInput& input, const AnalysisOptions& options) {
-  const LinkNetwork network = input.network();
-  const NetworkLaw network_law = input.network_law(options);
-  const DiskLaw law = law_of(input);
   Json section{{"omega", nullptr}};
   try {
-    const VibrationModes modes = vibration_modes(network, network_law, law, kReportedModes, false);
+    const VibrationModes modes = modes_of(input, options, kReportedModes);
     section["omega"] = modes.omega;
     section["zero_modes"] = modes.zero_modes;
     section["converged"] = modes.converged;
@@ -130,7 +211,8 @@ Json modes_section(const AnalysisInput& input, const AnalysisOptions& options) {
   }
   if (!options.prestress) return section;
   try {
-    const PrestressedModes modes = prestressed_modes(network, network_law, law, kReportedModes);
+    const PrestressedModes modes =
+        prestressed_modes(input.network(), input.network_law(options), law_of(input, options), kReportedModes);
     Json omega_squared = Json::array();
     for (const auto& v : modes.omega_squared) omega_squared.push_back({v.real(), v.imag()});
     section["with_geometric_term"] = {
@@ -145,9 +227,7 @@ Json modes_section(const AnalysisInput& input, const AnalysisOptions& options) {
 }
 
 std::vector<Table> modes_tables(const AnalysisInput& input, const AnalysisOptions& options) {
-  const LinkNetwork network = input.network();
-  const NetworkLaw network_law = input.network_law(options);
-  const VibrationModes modes = vibration_modes(network, network_law, law_of(input), kTabulatedModes, false);
+  const VibrationModes modes = modes_of(input, options, kTabulatedModes);
   Table density{"modes.density", {"omega", "modes_below"}, {}};
   for (std::size_t k = 0; k < modes.omega.size(); ++k)
     density.rows.push_back({modes.omega[k], static_cast<double>(modes.zero_modes) + static_cast<double>(k) + 1});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <type_traits>
 
 #include "analysis/rigidity/independent_columns.hpp"
 #include "analysis/stiffness/lowest_modes.hpp"
@@ -22,23 +23,25 @@ double largest_square(const RigidityMatrix& g, std::size_t row) {
   return largest > 0 ? largest : 1;
 }
 
-}  // namespace
+double area_weight(const LinkNetwork& network, const RigidityMatrix& g, std::size_t row) {
+  return network.is_area(static_cast<std::size_t>(g.link_of_row[row])) ? 1 / largest_square(g, row) : 1;
+}
+double area_weight(const SphereNetwork&, const RigidityMatrix&, std::size_t) { return 1; }
 
-std::vector<double> smallest_singular_values(const LinkNetwork& network, NetworkLaw law, bool cell_free, int count) {
-  const Packing<2>& packing = network.packing;
+template <class Network>
+std::vector<double> singular_values(const Network& network, NetworkLaw law, bool cell_free, int count) {
+  const auto& packing = network.packing;
+  constexpr std::size_t kSpace = std::is_same_v<Network, SphereNetwork> ? 3 : 2;
   const RigidityMatrix g = rigidity_matrix(network, law, cell_free);
   const auto& radius = packing.bodies.radius;
   const double mean_radius = std::accumulate(radius.begin(), radius.begin() + network.free, 0.0) / network.free;
   std::vector<double> weight(static_cast<std::size_t>(g.rows()), 1.0), scale;
   for (std::size_t r = 0; r < weight.size(); ++r)
-    if (g.kind[r] == RowKind::rolling)
-      weight[r] = mean_radius * mean_radius;
-    else if (network.is_area(static_cast<std::size_t>(g.link_of_row[r])))
-      weight[r] = 1 / largest_square(g, r);
+    weight[r] = g.kind[r] == RowKind::rolling ? mean_radius * mean_radius : area_weight(network, g, r);
   for (std::size_t b = 0; b < static_cast<std::size_t>(network.free); ++b) {
     const double r = radius[b];
-    scale.insert(scale.end(), {1.0, 1.0});
-    if (g.layout.per_body == 3) scale.push_back(r * r);
+    scale.insert(scale.end(), kSpace, 1.0);
+    scale.insert(scale.end(), static_cast<std::size_t>(g.layout.per_body) - kSpace, r * r);
   }
   for (int a = 0; a < g.layout.strains; ++a) scale.push_back(packing.cell->length[a] * packing.cell->length[a]);
   const LowestModes modes = lowest_modes(weighted_normal_matrix(g, weight), dependent_columns(network, law, cell_free),
@@ -46,6 +49,15 @@ std::vector<double> smallest_singular_values(const LinkNetwork& network, Network
   std::vector<double> sigma;
   for (double lambda : modes.value) sigma.push_back(std::sqrt(std::max(lambda, 0.0)));
   return sigma;
+}
+
+}  // namespace
+
+std::vector<double> smallest_singular_values(const LinkNetwork& network, NetworkLaw law, bool cell_free, int count) {
+  return singular_values(network, law, cell_free, count);
+}
+std::vector<double> smallest_singular_values(const SphereNetwork& network, NetworkLaw law, bool cell_free, int count) {
+  return singular_values(network, law, cell_free, count);
 }
 
 }  // namespace isostat

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "analysis/input.hpp"
+#include "analysis/sphere_network.hpp"
 
 namespace isostat {
 
@@ -11,5 +12,6 @@ namespace isostat {
 // units and sizes don't matter). Ascending, at most `count`. Throws std::length_error if there are too many null
 // vectors to project out.
 std::vector<double> smallest_singular_values(const LinkNetwork& network, NetworkLaw law, bool cell_free, int count);
+std::vector<double> smallest_singular_values(const SphereNetwork& network, NetworkLaw law, bool cell_free, int count);
 
 }  // namespace isostat

@@ -10,8 +10,16 @@
 
 namespace isostat {
 
-DiskLaw law_of(const AnalysisInput& input) {
-  return input.has_law() && !input.triangles ? input.state.law : default_network_law();
+DiskLaw law_of(const AnalysisInput& input, const AnalysisOptions& options) {
+  if (input.has_law() && !input.triangles) return input.state.law;
+  DiskLaw law = default_network_law();
+  const std::vector<double>& given = options.stiffness;
+  if (!given.empty()) {
+    law.normal_stiffness = given[0];
+    law.tangential_stiffness = given.size() > 1 ? given[1] : given[0];
+    law.rolling_stiffness = given.size() > 2 ? given[2] : 1e-4 * given[0];
+  }
+  return law;
 }
 
 std::vector<double> dof_masses(const LinkNetwork& network, NetworkLaw network_law) {

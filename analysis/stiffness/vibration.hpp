@@ -23,7 +23,7 @@ std::vector<double> dof_masses(const LinkNetwork& network, NetworkLaw network_la
 VibrationModes vibration_modes(const LinkNetwork& network, NetworkLaw network_law, const DiskLaw& law, int count,
                                bool displacements);
 
-// Of contacts between disks: the state's own law, or the default of a network.
-DiskLaw law_of(const AnalysisInput& input);
+// Of contacts between disks: the state's own law, or the default of a network with what --stiffness says.
+DiskLaw law_of(const AnalysisInput& input, const AnalysisOptions& options = {});
 
 }  // namespace isostat

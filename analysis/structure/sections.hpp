@@ -15,4 +15,7 @@ nlohmann::ordered_json scattering_section(const AnalysisInput& input, const Anal
 // Density autocorrelation C(r), the fit of Eq. 27, and the mass-radius relation.
 nlohmann::ordered_json dacf_section(const AnalysisInput& input, const AnalysisOptions& options);
 
+// Radial distribution function of spheres up to five largest diameters, bins of 1/40 of them.
+nlohmann::ordered_json rdf_section(const AnalysisInput& input, const AnalysisOptions& options);
+
 }  // namespace isostat

@@ -12,6 +12,7 @@
 #include "analysis/stiffness/vibration.hpp"
 #include "dem/disks/certificate.hpp"
 #include "dem/input_error.hpp"
+#include "dem/state/smooth_walls.hpp"
 #include "geometry/pores.hpp"
 
 namespace isostat {
@@ -164,7 +165,8 @@ Drawing drawing_of_disks(const Arguments& arguments, const std::vector<AnalysisI
   Drawing drawing;
   drawing.length_unit = length_unit(readings[0]);
   for (std::size_t k = 0; k < inputs.size(); ++k) {
-    drawing.subjects.push_back(std::make_unique<DiskSubject>(inputs[k].packing(), std::move(contents[k])));
+    drawing.subjects.push_back(
+        std::make_unique<DiskSubject>(inputs[k].packing(), std::move(contents[k]), smooth_walls_of(inputs[k].state)));
     drawing.captions.push_back(caption(inputs[k]));
   }
   return drawing;

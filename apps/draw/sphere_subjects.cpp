@@ -7,8 +7,8 @@
 #include "analysis/figure/sphere_subject.hpp"
 #include "analysis/network/coordination.hpp"
 #include "apps/draw/space_options.hpp"
+#include "apps/draw/sphere_clusters.hpp"
 #include "apps/draw/subjects.hpp"
-#include "dem/files/packing_file.hpp"
 #include "dem/input_error.hpp"
 
 namespace isostat {
@@ -27,9 +27,10 @@ struct Series {
 Series series_of(const Arguments& arguments, const std::vector<AnalysisInput>& inputs) {
   Series series;
   for (const AnalysisInput& input : inputs) {
-    State<Spheres> state = input.sphere_state ? *input.sphere_state : foreign_state(*input.packing_3d);
+    State<Spheres> state = input.spheres_state.value_or(State<Spheres>{});
+    static_cast<Packing<3>&>(state.packing) = *input.packing_3d;
     if (state.packing.bodies.size() == 0) throw InputError(input.path, 0, "", "", "has no grains to draw");
-    series.readings.push_back(read_forces(state));
+    series.readings.push_back(read_forces(input));
     if (series.readings.back().law_known != series.readings[0].law_known)
       throw InputError(input.path, 0, "", "",
                        "is not of one kind with " + inputs[0].path + ": only one has a law, and units");
@@ -43,7 +44,7 @@ Series series_of(const Arguments& arguments, const std::vector<AnalysisInput>& i
   for (std::size_t k = 0; k < inputs.size(); ++k)
     if (series.what == "forces" && !series.readings[k].known)
       throw InputError(inputs[k].path, 0, "--what", "forces", "this file gives no forces; draw grains");
-  if (series.what == "pores" || series.what == "modes" || series.what == "clusters")
+  if (series.what == "pores" || series.what == "modes")
     throw InputError(inputs[0].path, 0, "--what", series.what, "is drawn of packings in the plane; this one is in 3D");
   return series;
 }
@@ -93,7 +94,7 @@ std::unique_ptr<SphereContent> grains(const SpherePacking& packing) {
   return balls_content(std::move(style), std::move(styles));
 }
 
-void add_views(Drawing& drawing, const Arguments& arguments, Series& series) {
+void add_views(Drawing& drawing, const Arguments& arguments, const std::vector<AnalysisInput>& inputs, Series& series) {
   const View view = view_of(arguments);
   DepthRange range = depth_range(series.states[0].packing, view);
   for (const State<Spheres>& s : series.states) range = around(range, depth_range(s.packing, view));
@@ -102,6 +103,7 @@ void add_views(Drawing& drawing, const Arguments& arguments, Series& series) {
     SpherePacking& packing = series.states[k].packing;
     auto content = series.what == "forces"     ? sphere_forces_content(force_options(arguments, series, k))
                    : series.what == "velocity" ? sphere_motion_content(motion_of(series, k), view, motion)
+                   : series.what == "clusters" ? sphere_clusters(inputs[k])
                                                : grains(packing);
     drawing.subjects.push_back(
         std::make_unique<SphereSubject>(std::move(packing), SphereView{view, range}, std::move(content)));
@@ -160,6 +162,8 @@ void add_slices(Drawing& drawing, const Arguments& arguments, const Slice& slice
 Drawing drawing_of_spheres(const Arguments& arguments, const std::vector<AnalysisInput>& inputs) {
   const std::optional<Slice> slice = slice_of(arguments);
   Series series = series_of(arguments, inputs);
+  if (slice && series.what == "clusters")
+    throw InputError(inputs[0].path, 0, "--what", "clusters", "lie in space: leave --slice out");
   Drawing drawing;
   if (series.law_known) drawing.length_unit = rich("`a`");
   for (std::size_t k = 0; k < inputs.size(); ++k)
@@ -169,7 +173,7 @@ Drawing drawing_of_spheres(const Arguments& arguments, const std::vector<Analysi
   if (slice)
     add_slices(drawing, arguments, *slice, series, inputs[0].path);
   else
-    add_views(drawing, arguments, series);
+    add_views(drawing, arguments, inputs, series);
   return drawing;
 }
 

@@ -1,6 +1,7 @@
 // The bodies as the kernels see them: rows, loads, constants (see kernel/row.hpp), in storage order, which follows the
 // cells of the neighbour grid. Beyond the last body lie pairs of far-apart rows that pad segments: one for each group
-// of a phase, because threads add to their loads at the same time.
+// of a phase, because threads add to their loads at the same time. Beyond them lie feet, points of smooth walls below
+// the grains that are near them, until the bodies are sorted anew.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -67,6 +68,14 @@ struct BodiesStore {
               [](const DrivenBody& a, const DrivenBody& b) { return a.body < b.body; });
     *this = std::move(sorted);
   }
+  // Rows of n feet, with neither radius nor inverse mass. Pairs name them like bodies, by foot(k).
+  void set_feet(std::size_t n) {
+    rows.resize(foot(n) * kernel::kRowWidth, 0.0);
+    loads.resize(foot(n) * kernel::kLoadWidth, 0.0);
+    constants.resize(n > 0 ? foot(n) : size(), BodyConstants{});
+  }
+  std::size_t foot(std::size_t k) const { return pad(size(), kPads) + k; }
+
   // Two bodies of the container.
   bool inert(std::size_t i, std::size_t j) const {
     return !driven.empty() && constants[i].inverse_mass == 0 && constants[j].inverse_mass == 0;

@@ -31,6 +31,11 @@ double longest_edge(const Scene& scene) {
   return std::sqrt(area * std::max(scene.cell.aspect, 1 / scene.cell.aspect));
 }
 
+double smallest_diameter(const Scene& scene) {
+  const GrainsScene& g = scene.grains;
+  return !g.file.empty() ? 1.0 : is_collision(scene) ? g.diameter_max : g.diameter_min;
+}
+
 double largest_diameter(const Scene& scene) { return scene.grains.file.empty() ? scene.grains.diameter_max : 1.0; }
 
 // Weight of the largest grain [F0].
@@ -46,7 +51,7 @@ double largest_force(const Scene& scene, const StageScene& stage) {
 
 void check_grains(const Scene& scene, std::vector<SceneConflict>& found) {
   const GrainsScene& g = scene.grains;
-  if (g.file.empty() && g.diameter_min > g.diameter_max)
+  if (g.file.empty() && !is_collision(scene) && g.diameter_min > g.diameter_max)
     found.push_back({"grains.diameter_min",
                      real_text(g.diameter_min),
                      "at most grains.diameter_max = " + real_text(g.diameter_max),
@@ -56,7 +61,7 @@ void check_grains(const Scene& scene, std::vector<SceneConflict>& found) {
 // Contacts must be stiff against the forces of the run, and soft against the rounding of coordinates.
 void check_stiffness(const Scene& scene, std::vector<SceneConflict>& found) {
   const double stiffness = scene.law.normal_stiffness;
-  const bool random = scene.grains.file.empty();
+  const bool random = scene.grains.file.empty() && !is_collision(scene);
   double largest = scene.law.attraction, smallest = std::numeric_limits<double>::infinity();
   std::vector<std::string> involved{"law.normal_stiffness", "law.attraction", "grains.diameter_min", "gravity"};
   for (std::size_t i = 0; i < scene.stages.size(); ++i) {
@@ -65,7 +70,7 @@ void check_stiffness(const Scene& scene, std::vector<SceneConflict>& found) {
     if (force > 0) smallest = std::min(smallest, force);
     for (const char* key : {"pressure", "pressures", "stress_1", "stress_2"}) involved.push_back(stage_key(i, key));
   }
-  const double diameter = random ? scene.grains.diameter_min : 1.0;
+  const double diameter = smallest_diameter(scene);
   if (largest > kLargestOverlap * diameter * stiffness)
     found.push_back({"law.normal_stiffness", real_text(stiffness),
                      "too soft: the force scale F1 = max(F0, a P, weight of a grain) = " + real_text(largest) +
@@ -87,9 +92,8 @@ void check_stiffness(const Scene& scene, std::vector<SceneConflict>& found) {
 }
 
 void check_step(const Scene& scene, std::vector<SceneConflict>& found) {
-  const GrainsScene& g = scene.grains;
   const DiskLaw law = resolve(scene.law);
-  const double smallest = g.file.empty() ? g.diameter_min : 1.0, largest = g.file.empty() ? g.diameter_max : 1.0;
+  const double smallest = smallest_diameter(scene), largest = largest_diameter(scene);
   const double bound = critical_time_step(law, smallest) / time_step(law, 1.0, largest);
   if (scene.step.fraction >= bound)
     found.push_back({"step.fraction",
@@ -145,16 +149,6 @@ void check_bed(const Scene& scene, std::vector<SceneConflict>& found) {
 // What disks cannot do in a container, or under gravity.
 void check_surroundings(const Scene& scene, std::vector<SceneConflict>& found) {
   if (!contained(scene)) return;
-  if (scene.container.walls == ContainerWalls::smooth)
-    found.push_back({"container.walls",
-                     quoted_text("smooth"),
-                     "walls of disks are rows of disks, \"grains\"; smooth ones are for triangles",
-                     {"container.walls", "container.shape"}});
-  if (scene.output.energies)
-    found.push_back({"output.energies",
-                     "true",
-                     "the ledger of disks does not know the work of weight and of walls: not with a container",
-                     {"output.energies", "container.shape", "gravity"}});
   if (scene.finish.method == Finish::newton)
     found.push_back({"finish.method",
                      quoted_text("newton"),

@@ -94,6 +94,7 @@ std::vector<WallDisk> wall_disks(const ContainerScene& c) {
 
 void add_container(State<Disks>& s) {
   const ContainerScene& c = s.scene.container;
+  if (c.walls == ContainerWalls::smooth) return;
   const std::vector<WallDisk> walls = wall_disks(c);
   Bodies<2>& b = s.packing.bodies;
   const std::size_t grains = b.size();

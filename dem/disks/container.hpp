@@ -15,7 +15,7 @@ struct WallDisk {
 // width, opening or radius is what is left free between their surfaces. A hopper's outlet is closed by a lid.
 std::vector<WallDisk> wall_disks(const ContainerScene& container);
 
-// They become the last bodies, with the next ids, at rest where the container is built.
+// They become the last bodies, with the next ids, at rest where the container is built. Smooth walls are no bodies.
 void add_container(State<Disks>& state);
 
 }  // namespace isostat

@@ -11,6 +11,7 @@ Energies energies(const State<Disks>& s) {
   for (std::size_t k = 0; k < b.size(); ++k) {
     if (!is_free(s.packing.part, k)) continue;  // a container's motion is no energy of the grains
     e.kinetic += 0.5 * (b.mass[k] * dot(b.velocity[k], b.velocity[k]) + b.inertia[k] * b.spin[k] * b.spin[k]);
+    e.weight += b.mass[k] * s.scene.gravity * b.position[k][1];
   }
   for (const Link<2>& l : s.packing.links) {
     const AtRest normal = at_rest(s.law, l.gap);

@@ -1,5 +1,5 @@
-// What a step does to disks: leapfrog motion, a container that moves by itself, neighbour lists, pair forces, the
-// energy ledger, and the traffic of bodies and links with a state.
+// What a step does to disks: leapfrog motion, a container that moves by itself, neighbour lists, forces of pairs and of
+// smooth walls, the energy ledger, and the traffic of bodies and links with a state.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -10,6 +10,7 @@
 #include "dem/disks/kernel/pair_force.hpp"
 #include "dem/disks/motion.hpp"
 #include "dem/disks/pairs.hpp"
+#include "dem/disks/wall_contacts.hpp"
 #include "dem/solver/neighbours.hpp"
 #include "dem/solver/solver.hpp"
 #include "dem/solver/team.hpp"
@@ -46,24 +47,40 @@ class DiskEngine {
  private:
   void load_bodies(const State<Disks>& state);
   void load_walls(const State<Disks>& state);
-  double place_walls(double time);  // rows of the container's bodies at this time; their largest speed [a/T0]
+  void load_feet(const DiskMemory& memory);
+  void move_container(double time);
+  double place_walls();  // rows of the container's bodies; their largest speed [a/T0]
+  void list_walls(std::vector<WallContacts::Spring> springs);
   void snapshot_bodies(State<Disks>& state) const;
+  void snapshot_feet(State<Disks>& state) const;
   void snapshot_links(State<Disks>& state) const;
+  std::vector<std::size_t> touching_walls() const;  // places of wall contacts, by the ids of their disks
+  // visit(columns, place in them, i, j, shift code) for every listed pair, those with feet last.
+  template <class Self, class Visit>
+  static void for_each_pair(Self& self, Visit&& visit) {
+    self.lists_.for_each([&](std::size_t k, std::int32_t i, std::int32_t j, std::uint8_t shift) {
+      visit(self.lists_.columns(), k, i, j, shift);
+    });
+    self.walls_.for_each(
+        [&](std::size_t k, std::int32_t i, std::int32_t j) { visit(self.walls_.columns(), k, i, j, kNoImage<2>); });
+  }
   Vec2 branch(std::int32_t i, std::int32_t j, std::uint8_t shift, const Cell& cell) const;
   void brake_ledger(const MotionStep<2>& step, double drag);
   void set_work_due();
   double viscous_power() const;
+  double wall_power() const;
   double elastic_energy() const;
 
   DiskLaw law_;
   double dt_ = 0, gravity_ = 0;  // [T0], [a/T0^2]
   EnergyLedger ledger_;
   bool begins_, energies_, rotates_;
-  PairForceKernel force_kernel_;
+  PairForceKernel force_kernel_, wall_kernel_;
   MotionKernel motion_kernel_;
   Team team_;
   BodiesStore bodies_;
   Lists lists_;
+  WallContacts walls_;
   std::vector<MotionTally> motion_tallies_;    // by chunk
   std::vector<PairForceTally> force_tallies_;  // by group of a phase
   MotionTally motion_tally_;
@@ -75,6 +92,8 @@ class DiskEngine {
   ContainerMotionScene container_motion_;                                    // of the stage
   Surroundings surroundings_;                                                // when it began
   double stage_start_ = 0;                                                   // [T0]
+  ContainerStep container_;                                                  // in the step that ends now
+  std::vector<std::int64_t> ids_;                                            // sorted, where there are smooth walls
 };
 
 }  // namespace isostat

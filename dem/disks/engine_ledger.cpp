@@ -17,6 +17,7 @@ void DiskEngine::brake_ledger(const MotionStep<2>& step, double rate) {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     const double *row = bodies_.row(k), *load = bodies_.load(k);
     const BodyConstants& c = bodies_.constants[k];
+    if (c.inverse_mass == 0) continue;  // the container moves as it does
     for (int a = 0; a < 2; ++a) {
       const double before = row[Slot::half_vx + a];
       const double free = before + dt_ * load[LoadSlot::fx + a] * c.inverse_mass, brake = 1 - step.keep[a];
@@ -38,14 +39,36 @@ void DiskEngine::keep_books() {
   if (!energies_) return;
   ledger_.sliding += force_tally_.sliding;
   ledger_.rolling += force_tally_.rolling;
-  ledger_.viscous += ledger_.viscous_due, ledger_.cell_work += ledger_.cell_work_due;
-  set_work_due();
-  ledger_.viscous += ledger_.viscous_due, ledger_.cell_work += ledger_.cell_work_due;
+  for (int half = 0; half < 2; ++half) {
+    if (half == 1) set_work_due();
+    ledger_.viscous += ledger_.viscous_due, ledger_.cell_work += ledger_.cell_work_due;
+    ledger_.wall_work += ledger_.wall_work_due;
+  }
 }
 
 void DiskEngine::set_work_due() {
   ledger_.viscous_due = 0.5 * dt_ * viscous_power();
   ledger_.cell_work_due = -0.5 * dt_ * (force_tally_.virial[0] * flow_.now[0] + force_tally_.virial[1] * flow_.now[1]);
+  ledger_.wall_work_due = 0.5 * dt_ * wall_power();
+}
+
+// What the container does to the grains: its bodies and feet feel the opposite of what they exert. Weights, with which
+// the loads of bodies begin, are none of it.
+double DiskEngine::wall_power() const {
+  if (!moves(container_motion_)) return 0;
+  double power = 0;
+  const auto add = [&](std::size_t k, double weight) {
+    const double* load = bodies_.load(k);
+    const Vec2 v = velocity_at(container_.now, bodies_.position(k));
+    const double torque = bodies_.constants[k].radius * load[LoadSlot::moment_per_radius] + load[LoadSlot::moment];
+    power -= load[LoadSlot::fx] * v[0] + (load[LoadSlot::fy] + weight) * v[1] + torque * container_.now.spin;
+  };
+  for (const DrivenBody& d : bodies_.driven) {
+    const auto k = static_cast<std::size_t>(d.body);
+    add(k, bodies_.constants[k].mass * gravity_);
+  }
+  for (std::size_t k = 0; k < walls_.size(); ++k) add(bodies_.foot(k), 0);
+  return power;
 }
 
 // Of the viscous forces of this instant, with the mean of the velocities before and after it. The forces themselves
@@ -53,7 +76,7 @@ void DiskEngine::set_work_due() {
 double DiskEngine::viscous_power() const {
   if (!(law_.damping > 0)) return 0;
   double power = 0;
-  lists_.for_each([&](std::size_t, std::int32_t a, std::int32_t b, std::uint8_t shift) {
+  for_each_pair(*this, [&](const DiskPairs&, std::size_t, std::int32_t a, std::int32_t b, std::uint8_t shift) {
     const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
     const BodyConstants &ci = bodies_.constants[i], &cj = bodies_.constants[j];
     const Vec2 r = branch(a, b, shift, cell_);
@@ -63,7 +86,11 @@ double DiskEngine::viscous_power() const {
     for (int k = 0; k < 2; ++k) {
       const double normal = k == 0 ? frame.nx : frame.ny, affine = flow_.now[k] * r[k];
       const double *ri = bodies_.row(i), *rj = bodies_.row(j);
-      const double kick = 0.5 * dt_ * (bodies_.load(j)[k] * cj.inverse_mass - bodies_.load(i)[k] * ci.inverse_mass);
+      const auto kicked = [&](const double* row, const double* load, const BodyConstants& c) {  // at the full step
+        const double of_container = row[Slot::vx + k] - row[Slot::half_vx + k];
+        return c.inverse_mass == 0 ? of_container : 0.5 * dt_ * load[k] * c.inverse_mass;
+      };
+      const double kick = kicked(rj, bodies_.load(j), cj) - kicked(ri, bodies_.load(i), ci);
       const double half = rj[Slot::half_vx + k] - ri[Slot::half_vx + k];
       receding += normal * (half + flow_.half[k] * r[k]);
       predicted += normal * (rj[Slot::vx + k] - ri[Slot::vx + k] + affine);
@@ -81,11 +108,11 @@ double DiskEngine::viscous_power() const {
 
 double DiskEngine::elastic_energy() const {
   double energy = 0;
-  lists_.for_each([&](std::size_t k, std::int32_t i, std::int32_t j, std::uint8_t shift) {
+  for_each_pair(*this, [&](const DiskPairs& pairs, std::size_t k, std::int32_t i, std::int32_t j, std::uint8_t shift) {
     const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
     const double gap = norm(branch(i, j, shift, cell_)) - (bodies_.radius(a) + bodies_.radius(b));
     if (!(gap < 0)) return;
-    const DiskHistory h = lists_.columns().history(k);
+    const DiskHistory h = pairs.history(k);
     const SpringEnergy springs = spring_energy(law_, h.tangential_force, h.moment);
     energy += contact(law_, gap).elastic + springs.tangential + springs.rolling;
   });

@@ -17,15 +17,23 @@ std::vector<SceneKey> disk_keys() {
   return of(
       SceneSystem::disks,
       {
+          {.name = "grains.arrangement",
+           .field = in<&S::grains, &GrainsScene::arrangement>,
+           .choices = names(kArrangementNames),
+           .condition = random_start,
+           .hidden_at_default = true,
+           .meaning = "random: at random positions without overlap, at rest. collision: two disks of diameter "
+                      "grains.diameter_max in free space; the left one flies to the right against the other, which is "
+                      "at rest."},
           {.name = "grains.count",
            .field = in<&S::grains, &GrainsScene::count>,
            .range = from(1, 1e9),
-           .condition = random_start,
+           .condition = random_places,
            .meaning = "Number N of disks."},
           {.name = "grains.solid_fraction",
            .field = in<&S::grains, &GrainsScene::solid_fraction>,
            .range = {0, 0.5, true, false},
-           .condition = random_start,
+           .condition = random_places,
            .meaning =
                "Solid fraction Phi_I of the initial state: sum of pi d^2/4 over the area of the cell. Equal disks "
                "placed at random without overlap saturate at 0.547, hence the limit."},
@@ -33,7 +41,7 @@ std::vector<SceneKey> disk_keys() {
            .field = in<&S::grains, &GrainsScene::diameter_min>,
            .unit = "a",
            .range = positive,
-           .condition = random_start,
+           .condition = random_places,
            .meaning = "Smallest diameter; diameters are uniform between the two."},
           {.name = "grains.diameter_max",
            .field = in<&S::grains, &GrainsScene::diameter_max>,
@@ -41,6 +49,18 @@ std::vector<SceneKey> disk_keys() {
            .range = positive,
            .condition = random_start,
            .meaning = "Largest diameter, the unit of length: leave it at 1 unless you know why."},
+          {.name = "grains.speed",
+           .field = in<&S::grains, &GrainsScene::speed>,
+           .unit = "a/T0",
+           .range = positive,
+           .condition = collision,
+           .meaning = "Of the left disk of a collision."},
+          {.name = "grains.offset",
+           .field = in<&S::grains, &GrainsScene::offset>,
+           .unit = "diameters",
+           .range = {-1, 1, true, true},
+           .condition = collision,
+           .meaning = "By which the left disk is higher."},
           {.name = "grains.file",
            .field = in<&S::grains, &GrainsScene::file>,
            .meaning = "A state file or a plain-text network to start from instead of random positions; relative to the "

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "dem/disks/energy.hpp"
 #include "dem/state/container_motion.hpp"
 
 namespace isostat {
@@ -26,7 +27,15 @@ void thin_pairs(std::vector<Pair>& pairs, const std::vector<char>& goes, const s
 
 }  // namespace
 
-void remove_bodies(State<Disks>& s, const std::vector<char>& goes) {
+void remove_bodies(State<Disks>& s, std::vector<char> goes) {
+  const bool books = s.scene.output.energies;
+  const double before = books ? energies(s).stored() : 0;
+  const std::size_t grains = s.packing.grains();
+  for (const Link<2>& l : s.packing.links) {  // feet go with the disks that stood on them
+    const auto i = static_cast<std::size_t>(l.i), j = static_cast<std::size_t>(l.j);
+    if (goes[i] && j >= grains) goes[j] = 1;
+    if (goes[j] && i >= grains) goes[i] = 1;
+  }
   std::vector<std::int32_t> to(goes.size());
   std::int32_t kept = 0;
   for (std::size_t k = 0; k < goes.size(); ++k) to[k] = goes[k] ? -1 : kept++;
@@ -36,16 +45,20 @@ void remove_bodies(State<Disks>& s, const std::vector<char>& goes) {
   DiskMemory& m = s.memory;
   if (!m.wall_position.empty()) {
     std::vector<char> walls_go;
-    for (std::size_t k = 0; k < goes.size(); ++k)
+    for (std::size_t k = 0; k < grains; ++k)
       if (!is_free(s.packing.part, k)) walls_go.push_back(goes[k]);
     thin(m.wall_position, walls_go);
   }
+  const std::vector<char> feet_go(goes.begin() + static_cast<std::ptrdiff_t>(grains), goes.end());
+  thin(s.packing.feet, feet_go);
   thin(s.packing.part, goes);
   Bodies<2>& b = s.packing.bodies;
   thin(b.id, goes), thin(b.position, goes), thin(b.velocity, goes), thin(b.spin, goes);
   thin(b.radius, goes), thin(b.mass, goes), thin(b.inertia, goes);
   thin(m.half_velocity, goes), thin(m.half_spin, goes), thin(m.force, goes), thin(m.torque, goes);
+  goes.resize(grains);
   thin(m.lists.outer_position, goes), thin(m.lists.inner_position, goes);
+  if (books) s.ledger.injected += energies(s).stored() - before;
 }
 
 void open_outlet(State<Disks>& s) {

@@ -8,8 +8,8 @@
 namespace isostat {
 
 // Takes these bodies, one flag each, from the packing and from all that a solver remembers of them. What stays keeps
-// its order.
-void remove_bodies(State<Disks>& state, const std::vector<char>& goes);
+// its order. Feet under them go, too.
+void remove_bodies(State<Disks>& state, std::vector<char> goes);
 
 // The lids go. Of surroundings only `open` changes.
 void open_outlet(State<Disks>& state);

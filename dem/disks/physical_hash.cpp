@@ -66,6 +66,9 @@ std::string physical_hash(const State<Disks>& state) {
   }
   if (!state.packing.part.empty())
     for (const std::size_t k : order) digest.add(static_cast<std::int64_t>(state.packing.part[k]));
+  for (const Foot& foot : state.packing.feet) {  // in the order of their ids
+    digest.add(std::int64_t{foot.wall}), digest.add(foot.turning);
+  }
   add_surroundings(digest, state.scene.gravity, state.surroundings);
   return digest.hex();
 }

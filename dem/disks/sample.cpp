@@ -15,6 +15,7 @@
 #include "dem/solver/random.hpp"
 #include "dem/state/container_motion.hpp"
 #include "dem/state/container_region.hpp"
+#include "dem/state/smooth_walls.hpp"
 #include "dem/state/touching.hpp"
 
 namespace isostat {
@@ -37,7 +38,7 @@ double time_step(const Scene& scene, double normal_stiffness, const Packing<2>& 
   double heaviest = 0;
   for (std::size_t k = 0; k < mass.size(); ++k)
     if (is_free(packing.part, k)) heaviest = std::max(heaviest, mass[k]);
-  if (!(heaviest > 0)) heaviest = *std::max_element(mass.begin(), mass.end());  // all grains have left
+  for (std::size_t k = 0; k < mass.size() && !(heaviest > 0); ++k) heaviest = mass[k];  // all grains have left
   return scene.step.fraction * std::sqrt(heaviest / normal_stiffness);
 }
 
@@ -71,15 +72,31 @@ void refuse_without_cell(const Scene& scene, const std::string& path) {
   if (!faults.empty()) throw InputError(std::move(faults));
 }
 
+// Smooth walls that are put around grains.
+void refuse_walls_within(const State<Disks>& state, const std::string& path) {
+  const Bodies<2>& b = state.packing.bodies;
+  for (const SmoothWall& wall : smooth_walls(state.scene.container, 0))
+    for (std::size_t k = 0; k < b.size(); ++k)
+      if (const double gap = norm(foot_point(wall, b.position[k]).place - b.position[k]) - b.radius[k];
+          gap < -kMostOverlapAtStart * b.radius[k])
+        throw InputError(path, 0, "grains.file", path,
+                         "a wall of the container closes on grains: grain " + std::to_string(b.id[k]) +
+                             " overlaps it by " + std::to_string(-gap) +
+                             " a; at most a tenth of its radius is allowed");
+}
+
 // The container of a file stays where it stands; the scene has to know which it is. A packing without one gets that of
 // the scene around it.
 void contain(State<Disks>& state, const State<Disks>& file, const std::string& path) {
-  const bool walls = !state.packing.part.empty();
+  const bool walls = !state.packing.part.empty() || file.scene.container.shape != ContainerShape::none;
   const ContainerScene& wanted = state.scene.container;
   if (!walls && wanted.shape == ContainerShape::none) return;
   if (!walls && state.packing.cell)
     throw InputError(path, 0, "grains.file", path, "it has a periodic cell, and the scene puts a container around it");
-  if (!walls) return add_container(state);
+  if (!walls) {
+    add_container(state);
+    return refuse_walls_within(state, path);
+  }
   if (wanted != file.scene.container)
     throw InputError(path, 0, "grains.file", path, "it has a container; the scene needs the same [container]");
   const ContainerPlacement stands = container_of(file);
@@ -142,6 +159,23 @@ struct Room {
   }
 };
 
+constexpr double kFlight = 0.5;  // [diameter] between two disks that are to collide
+
+// The left disk is higher and flies along x.
+State<Disks> about_to_collide(const Scene& scene, std::uint64_t seed) {
+  const GrainsScene& g = scene.grains;
+  State<Disks> state = without_bodies(scene, seed);
+  Bodies<2>& b = state.packing.bodies;
+  b.resize(2);
+  b.id = {0, 1};
+  b.radius.assign(2, 0.5 * g.diameter_max);
+  b.position[0] = {{-(1 + kFlight) * g.diameter_max, g.offset * g.diameter_max}};
+  b.velocity[0] = {{g.speed, 0}};
+  set_disk_inertia(b);
+  state.time_step = time_step(scene, state.law.normal_stiffness, state.packing);
+  return state;
+}
+
 constexpr double kRoomAtLeast = 8;  // [largest diameter^2] of a container: for a few grains
 
 // area [a^2] of the room.
@@ -166,6 +200,7 @@ Room room_of(const Scene& scene, double area) {
 State<Disks> initial_disks(const Scene& scene, std::uint64_t seed) {
   const GrainsScene& g = scene.grains;
   if (!g.file.empty()) return state_from_file(scene, seed);
+  if (is_collision(scene)) return about_to_collide(scene, seed);
   State<Disks> state = without_bodies(scene, seed);
   Random random(seed);
 

@@ -77,8 +77,10 @@ std::vector<SeriesColumn> series_columns(const State<Disks>& s, bool with_energi
          {"E_sliding", e.ledger.sliding},
          {"E_rolling", e.ledger.rolling},
          {"E_drag", e.ledger.drag},
-         {"E_cell_work", e.ledger.cell_work},
-         {"E_total", e.total()}});
+         {"E_cell_work", e.ledger.cell_work}});
+  if (with_energies && s.scene.container.shape != ContainerShape::none)
+    add({{"E_weight", e.weight}, {"E_wall_work", e.ledger.wall_work}, {"E_injected", e.ledger.injected}});
+  if (with_energies) add({{"E_total", e.total()}});
   return columns;
 }
 

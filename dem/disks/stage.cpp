@@ -12,11 +12,11 @@ void prepare_stage(State<Disks>& s, const StageScene& stage) {
   s.progress.start_stiffness = s.law.normal_stiffness;
   const double stiffest = std::max(s.law.normal_stiffness, stage.normal_stiffness.value_or(0));
   const double dt = time_step(s.scene, stiffest, s.packing), earlier = 0.5 * (s.time_step - dt);
-  if (dt == s.time_step) return;
+  if (dt == s.time_step || dt == 0) return;  // 0: nothing is left
   s.time_step = dt;
   DiskMemory& m = s.memory;
   const Bodies<2>& b = s.packing.bodies;
-  for (std::size_t k = 0; k < m.half_velocity.size(); ++k) {
+  for (std::size_t k = 0; k < std::min(m.half_velocity.size(), s.packing.grains()); ++k) {
     m.half_velocity[k] += (earlier / b.mass[k]) * m.force[k];
     m.half_spin[k] += earlier * m.torque[k] / b.inertia[k];
   }
@@ -26,9 +26,16 @@ void agitate(State<Disks>& s, const StageScene& stage) {
   if (stage.velocity > 0) draw_velocities(s, stage.velocity * std::sqrt(s.law.attraction * s.law.attraction_range));
 }
 
-bool event_met(const State<Disks>&, const StageScene&) { return false; }
+bool event_met(const State<Disks>& s, const StageScene&) {
+  const Bodies<2>& b = s.packing.bodies;
+  if (b.size() != 2 || !s.packing.links.empty()) return false;
+  return dot(b.position[1] - b.position[0], b.velocity[1] - b.velocity[0]) > 0;
+}
 
-std::string event_missing(const State<Disks>&, const StageScene&) { return "no such event among disks"; }
+std::string event_missing(const State<Disks>& s, const StageScene&) {
+  if (s.packing.bodies.size() != 2) return "separated is an end for two grains";
+  return s.packing.links.empty() ? "the grains have not yet collided" : "the grains still touch";
+}
 
 bool law_changes(const State<Disks>& s, const StageScene& stage) {
   return stage.normal_stiffness && s.law.normal_stiffness != *stage.normal_stiffness;

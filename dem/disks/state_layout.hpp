@@ -12,7 +12,7 @@ constexpr FileUnits file_units(Disks) { return {"a", "T0"}; }
 
 template <class Io>
 void transfer_packing(Io& io, Packing<2>& packing) {
-  auto& [cell, bodies, links, beams, part] = packing;
+  auto& [cell, bodies, links, beams, part, feet] = packing;
   static_cast<void>(beams);  // refused by state_fault(): no run has them yet
   auto& [id, position, velocity, spin, radius, mass, inertia] = bodies;
   const std::string grains = "/particles/grains";
@@ -26,6 +26,13 @@ void transfer_packing(Io& io, Packing<2>& packing) {
   io.array(grains + "/mass", mass, n, "m");
   io.array(grains + "/inertia", inertia, n, "m a+2");
   if (io.since(4)) transfer_codes(io, grains + "/part", part, io.count(grains + "/part", part.size()));
+  if (io.since(5)) {
+    const auto foot_members = [](Foot& foot) {
+      auto& [wall, turning] = foot;
+      return std::tie(wall, turning);
+    };
+    transfer_rows(io, "/feet", feet, foot_members, {{"wall", ""}, {"turning", "a-1"}});
+  }
 
   const auto members = [](Link<2>& link) {
     auto& [i, j, shift, kind, beam, gap, normal_force, tangential_force, moment] = link;

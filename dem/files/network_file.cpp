@@ -302,6 +302,8 @@ void refuse_other_beam(const Packing<D>& packing, const Link<D>& link) {
 
 template <int D>
 std::string network_text(const Packing<D>& packing) {
+  if (!packing.feet.empty())
+    throw InputError("network", 0, "contact", "", "a .net file has no place for contacts with smooth walls");
   std::string text;
   char buffer[64];
   const auto real = [&](double v) {

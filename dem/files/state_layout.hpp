@@ -39,7 +39,8 @@ void transfer_surroundings(Io& io, Surroundings& surroundings) {
 
 template <class Io>
 void transfer_ledger(Io& io, EnergyLedger& ledger) {
-  auto& [viscous, sliding, rolling, drag, cell_work, injected, viscous_due, cell_work_due] = ledger;
+  auto& [viscous, sliding, rolling, drag, cell_work, injected, wall_work, viscous_due, cell_work_due, wall_work_due] =
+      ledger;
   io.value("/ledger", "viscous", viscous);
   io.value("/ledger", "sliding", sliding);
   io.value("/ledger", "rolling", rolling);
@@ -48,6 +49,9 @@ void transfer_ledger(Io& io, EnergyLedger& ledger) {
   io.value("/ledger", "injected", injected);
   io.value("/ledger", "viscous_due", viscous_due);
   io.value("/ledger", "cell_work_due", cell_work_due);
+  if (!io.since(5)) return;
+  io.value("/ledger", "wall_work", wall_work);
+  io.value("/ledger", "wall_work_due", wall_work_due);
 }
 
 template <class Io>

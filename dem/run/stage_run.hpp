@@ -29,8 +29,8 @@ class StageRun {
         outflow_(state, stage_),
         solver_(std::in_place, state, cell_control(state, stage_), options),
         interval_(check_interval(state.time_step)),
-        slice_(
-            std::max<std::int64_t>(1, kGrainStepsPerSlice / static_cast<std::int64_t>(state.packing.bodies.size()))) {
+        slice_(std::max<std::int64_t>(
+            1, kGrainStepsPerSlice / static_cast<std::int64_t>(state.packing.bodies.size() + 1))) {
     if (s_.progress.drag_on) solver_->set_drag(s_.scene.finish.drag);
     observers_.begin_stage(s_);
   }

@@ -53,6 +53,9 @@ inline const std::string& grains_file(const Scene& s) {
 }
 inline constexpr SceneCondition random_start{[](const Scene& s) { return grains_file(s).empty(); },
                                              "grains.file is empty"};
+inline constexpr SceneCondition random_places{[](const Scene& s) { return random_start.holds(s) && !is_collision(s); },
+                                              "grains.file is empty and grains.arrangement is \"random\""};
+inline constexpr SceneCondition collision{is_collision, "grains.file is empty and grains.arrangement is \"collision\""};
 
 // Rows as the rows of one system.
 inline std::vector<SceneKey> of(SceneSystem system, std::vector<SceneKey> rows) {

@@ -169,7 +169,7 @@ std::vector<SceneKey> common_keys() {
            "What ends the stage: equilibrium; aggregated, i.e. equilibrium of a single cluster (disks); a time; the "
            "strain of a driven direction; failure, when the stress of a driven direction has lost the part stage.drop "
            "of the largest change it had; empty, when every grain has left a hopper; clogged, when none has left it "
-           "for stage.clog_time; separated, when two colliding grains have met and left each other (triangles). If it "
+           "for stage.clog_time; separated, when two colliding grains have met and left each other. If it "
            "is not met within stage.max_time the exit code is 3."},
       {.name = "stage.time",
        .field = in<&S::stages, &StageScene::time>,
@@ -202,8 +202,8 @@ std::vector<SceneKey> common_keys() {
       {.name = "output.energies",
        .field = in<&S::output, &OutputScene::energies>,
        .condition = has_series,
-       .meaning = "Energy ledger in the series: kinetic, elastic, adhesive, and the work of damping, sliding, rolling "
-                  "and cell."},
+       .meaning = "Energy ledger in the series: what is stored, what damping, sliding, rolling and drag dissipate, and "
+                  "the work of a moving cell or container."},
       {.name = "output.stages",
        .field = in<&S::output, &OutputScene::stages>,
        .meaning = "Keep the state at the end of each stage but the last: STATE.stage0.h5, STATE.stage1.h5, ..."},

@@ -95,6 +95,7 @@ struct StageScene {
   double stiffening_time = 200.0;          // [T0] of the exponential change of K_N
   Springs stiffening_keeps = Springs::keep_forces;
   std::optional<double> friction;  // mu of spheres from this stage on; absent: it stays
+  double approach = 0;             // [a/T0] speed of the first soft-particle towards its partner
   Until until = Until::equilibrium;
   double time = 0.0;          // [T0] length of the stage with until = "time"
   double strain = 0.0;        // [-] |1 - L/L0| of a driven direction that ends the stage
@@ -166,6 +167,15 @@ struct Scene {
   std::optional<UnitsScene> units;
   friend bool operator==(const Scene&, const Scene&) = default;
 };
+
+// Two grains collide in free space.
+inline bool is_collision(const Scene& s) {
+  const auto collide = [](const auto& grains) {
+    return grains.file.empty() && grains.arrangement == Arrangement::collision;
+  };
+  return (s.system == SceneSystem::disks && collide(s.grains)) ||
+         (s.system == SceneSystem::triangles && collide(s.triangle_grains));
+}
 
 // A scene of this system without keys, with so many stages without keys: the defaults of times and rates go with the
 // units of a system.

@@ -21,6 +21,7 @@ class Rules {
       without_container();
     else
       with_container();
+    if (is_collision(scene_)) in_free_space();
     if (c.shape == ContainerShape::hopper && !(c.opening < c.width))
       refuse("container.opening", real_text(c.opening),
              "the outlet is narrower than the hopper, container.width = " + real_text(c.width), {"container.width"});
@@ -42,6 +43,16 @@ class Rules {
   void without_container() {
     if (scene_.gravity > 0)
       refuse("gravity", real_text(scene_.gravity), "needs a container: in a periodic cell all grains would fall", {});
+  }
+
+  void in_free_space() {
+    if (scene_.container.shape != ContainerShape::none)
+      refuse("grains.arrangement", quoted_text("collision"),
+             "two grains collide in free space: container.shape is \"none\"", {"grains.file"});
+    for (std::size_t i = 0; i < scene_.stages.size(); ++i)
+      for (const std::string& key : cell_keys(scene_.stages[i], i))
+        refuse(key, "", "a key of the periodic cell, and two grains collide in free space",
+               {"grains.arrangement", "grains.file"});
   }
 
   void with_container() {
@@ -79,10 +90,8 @@ class Rules {
         refuse(until, value, "needs " + stage_key(i, "open") + " = true, or that of a stage before",
                {stage_key(i, "open")});
     }
-    const bool collision = scene_.system == SceneSystem::triangles && scene_.triangle_grains.file.empty() &&
-                           scene_.triangle_grains.arrangement == Arrangement::collision;
-    if (s.until == Until::separated && !collision)
-      refuse(until, value, "only of a collision: system = \"triangles\", grains.arrangement = \"collision\"",
+    if (s.until == Until::separated && !is_collision(scene_))
+      refuse(until, value, "only of a collision: grains.arrangement = \"collision\"",
              {"grains.arrangement", "grains.file"});
     if (waits_for_equilibrium(s.until) && (s.container.vibration_amplitude > 0 || s.container.rotation != 0))
       refuse(until, value, "grains never come to rest in a container that moves; \"time\"",

@@ -53,7 +53,9 @@ std::vector<SceneKey> surroundings_keys() {
        .field = in<&S::container, &C::walls>,
        .choices = names(kContainerWallsNames),
        .condition = has_container,
-       .meaning = "smooth: flat walls; grains: rows of grains with teeth, which move with the container."},
+       .meaning =
+           "smooth: flat walls (a drum: round for disks, with facets for triangles), with the friction of the law; "
+           "grains: rows of grains with teeth, which move with the container."},
       {.name = "container.width",
        .field = in<&S::container, &C::width>,
        .unit = "a",

@@ -134,6 +134,8 @@ class NeighbourLists {
   void find_outer(const Bodies& bodies);
   void filter_inner(const Bodies& bodies, const std::vector<Pair>& histories);
   std::vector<Pair> histories() const;
+  void find_outer_by_size(const Bodies& bodies);
+  bool broad() const;
   CellGrid<D> grid_in(const Frame<D>& frame, double cutoff) const;
   double outer_skin_for(const Cell& cell) const;
   double inner_skin_for(double pair_displacement) const;

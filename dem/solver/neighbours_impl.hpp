@@ -7,16 +7,20 @@
 #include <string>
 
 #include "dem/solver/neighbours.hpp"
+#include "dem/solver/size_levels.hpp"
 
 namespace isostat {
 namespace lists {
 
 // Tuning, in the regime of METHODS.md "The disk engine"; none of these enters a result.
-inline constexpr double kOuterSkin = 0.35;          // [mean diameter]
+inline constexpr double kOuterSkin = 0.35;          // [mean diameter], of a broad distribution [smallest diameter]
 inline constexpr double kInnerSteps = 100;          // steps that the inner skin should last
 inline constexpr double kSmallestInnerSkin = 5e-4;  // [smallest diameter]
 inline constexpr double kLargestInnerSkin = 0.3;    // [outer skin]
 inline constexpr std::size_t kBodiesPerChunk = 4096;
+// Beyond this ratio of sizes a grid as wide as the largest body holds too many of the smallest.
+inline constexpr double kBroad = 2.5;
+inline constexpr double kBroadOrder = 2;  // [mean diameter] width of the grid along which these are sorted
 
 struct Wrapped {
   int cell, shift;
@@ -66,7 +70,8 @@ int NeighbourLists<Columns>::chunk_of(std::int32_t body) const {
 // No pair may be listed through its second image: in a tiny cell the skin is what the cell leaves.
 template <class Columns>
 double NeighbourLists<Columns>::outer_skin_for(const Cell& cell) const {
-  double wanted = lists::kOuterSkin * mean_diameter_;
+  // Among many sizes the small grains are the many: a skin of the mean would list most of their second neighbours.
+  double wanted = lists::kOuterSkin * (broad() ? smallest_diameter_ : mean_diameter_);
   if constexpr (requires { Columns::kOuterSkin; }) wanted = Columns::kOuterSkin * mean_diameter_;
   return cell ? std::min(wanted,
                          *std::min_element(cell->length.c.begin(), cell->length.c.end()) - largest_diameter_ - range_)
@@ -88,6 +93,7 @@ auto NeighbourLists<Columns>::grid_in(const Frame<D>& frame, double cutoff) cons
 // In the order of size: the storage order, which changes in the run, must not show in the last bit after a restart.
 template <class Columns>
 void NeighbourLists<Columns>::measure(const Bodies& bodies) {
+  if (bodies_ == 0) return;
   std::vector<double> radii;
   for (std::size_t k = 0; k < bodies_; ++k) radii.push_back(bodies.radius(k));
   std::sort(radii.begin(), radii.end());
@@ -106,6 +112,7 @@ double NeighbourLists<Columns>::inner_skin_for(double pair_displacement) const {
 template <class Columns>
 void NeighbourLists<Columns>::build(Bodies& bodies, const Cell& cell, std::vector<Pair> histories) {
   measure(bodies);
+  if (bodies_ == 0) return;
   sort_bodies(bodies, cell, histories);
   outer_skin_ = outer_skin_for(cell);
   inner_skin_ = inner_skin_for(0);
@@ -116,6 +123,7 @@ void NeighbourLists<Columns>::build(Bodies& bodies, const Cell& cell, std::vecto
 
 template <class Columns>
 void NeighbourLists<Columns>::rebuild(Bodies& bodies, const Cell& cell, double pair_displacement) {
+  if (bodies_ == 0) return;
   if (!std::isfinite(inner_travel_)) throw ListFailure("a velocity is not a number");
   std::vector<Pair> kept = histories();
   inner_skin_ = inner_skin_for(pair_displacement);
@@ -153,7 +161,8 @@ void NeighbourLists<Columns>::sort_bodies(Bodies& bodies, const Cell& cell, std:
       std::swap(frame.origin[0], frame.origin[1]), std::swap(frame.length[0], frame.length[1]);
       for (Vec<D>& r : position) std::swap(r[0], r[1]);
     }
-  const GridMembers<D> members(grid_in(frame, largest_diameter_ + range_), position);
+  const double width = broad() ? std::min(lists::kBroadOrder * mean_diameter_, largest_diameter_) : largest_diameter_;
+  const GridMembers<D> members(grid_in(frame, width + range_), position);
   std::vector<std::int32_t> to(bodies_);
   for (std::size_t n = 0; n < bodies_; ++n)
     to[static_cast<std::size_t>(members.member[n])] = static_cast<std::int32_t>(n);
@@ -175,6 +184,42 @@ void NeighbourLists<Columns>::sort_bodies(Bodies& bodies, const Cell& cell, std:
 }
 
 template <class Columns>
+bool NeighbourLists<Columns>::broad() const {
+  return largest_diameter_ > lists::kBroad * smallest_diameter_;
+}
+
+// Pairs as the levels find them, sorted by their first body: i < j.
+template <class Columns>
+void NeighbourLists<Columns>::find_outer_by_size(const Bodies& bodies) {
+  struct Found {
+    std::int32_t i, j;
+    std::uint8_t shift;
+  };
+  std::vector<double> radius(bodies_);
+  for (std::size_t k = 0; k < bodies_; ++k) radius[k] = bodies.radius(k);
+  std::vector<Found> found;
+  found.reserve(4 * bodies_);
+  std::vector<std::uint32_t> begin(bodies_ + 1, 0);
+  const SizeLevels<D> levels(outer_cell_, outer_position_, radius, range_ + outer_skin_);
+  levels.for_each_pair([&](std::int32_t i, std::int32_t j, ImageShift<D> shift) {
+    if constexpr (requires { bodies.inert(0, 0); })
+      if (bodies.inert(static_cast<std::size_t>(i), static_cast<std::size_t>(j))) return;
+    if (i > j) {
+      std::swap(i, j);
+      for (int& s : shift) s = -s;
+    }
+    found.push_back({i, j, image_code(shift)});
+    ++begin[static_cast<std::size_t>(i) + 1];
+  });
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  outer_i_.resize(found.size()), outer_j_.resize(found.size()), outer_shift_.resize(found.size());
+  for (const Found& f : found) {
+    const std::size_t to = begin[static_cast<std::size_t>(f.i)]++;
+    outer_i_[to] = f.i, outer_j_[to] = f.j, outer_shift_[to] = f.shift;
+  }
+}
+
+template <class Columns>
 void NeighbourLists<Columns>::find_outer(const Bodies& bodies) {
   outer_travel_ = 0;
   outer_position_.resize(bodies_);
@@ -182,6 +227,7 @@ void NeighbourLists<Columns>::find_outer(const Bodies& bodies) {
   outer_i_.clear(), outer_j_.clear(), outer_shift_.clear();
 
   const CellGrid<D> grid = grid_in(frame_of(outer_cell_, outer_position_), largest_diameter_ + range_ + outer_skin_);
+  if (broad()) return find_outer_by_size(bodies);
   const GridMembers<D> members(grid, outer_position_);
   for (std::size_t i = 0; i < bodies_; ++i) {
     const Vec<D> ri = outer_position_[i];
@@ -332,6 +378,7 @@ template <class Columns>
 void NeighbourLists<Columns>::restore(const Bodies& bodies, const ListMemory<D>& m, const std::vector<Pair>& pairs) {
   const auto cell = [](const Vec<D>& length) { return length == Vec<D>{} ? Cell{} : PeriodicCell<D>{length}; };
   measure(bodies);
+  if (bodies_ == 0) return;
   Bodies then = bodies;
   for (std::size_t k = 0; k < bodies_; ++k) then.place(k, m.outer_position[k]);
   outer_cell_ = cell(m.outer_length), outer_skin_ = m.outer_skin;

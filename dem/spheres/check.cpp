@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dem/scene/text.hpp"
+#include "dem/spheres/sample.hpp"
 #include "dem/spheres/time_step.hpp"
 
 namespace isostat {
@@ -26,6 +27,23 @@ void check_grains(const Scene& scene, std::vector<SceneConflict>& found) {
                      real_text(g.diameter_min),
                      "at most grains.diameter_max = " + real_text(g.diameter_max),
                      {"grains.diameter_min", "grains.diameter_max"}});
+}
+
+// Radii, rooms and trials of insertion, in the words of the scene.
+void check_insertion(const Scene& scene, std::vector<SceneConflict>& found) {
+  const SphereGrainsScene& g = scene.sphere_grains;
+  if (!g.file.empty() || g.arrangement == SphereArrangement::random || g.diameter_min > g.diameter_max) return;
+  for (const SceneConflict& c : insertion_conflicts(insertion_of(g), 3))
+    found.push_back({"grains.arrangement",
+                     c.key + " = " + c.value,
+                     c.rule,
+                     {"grains.arrangement", "grains.diameter_min", "grains.diameter_max", "grains.exponent",
+                      "grains.edge", "grains.shell_radius", "grains.volume_factor", "grains.trials"}});
+  if (g.arrangement == SphereArrangement::insertion) return;
+  for (std::size_t i = 0; i < scene.stages.size(); ++i)
+    for (const std::string& key : cell_keys(scene.stages[i], i))
+      found.push_back(
+          {key, "", "a key of the periodic cell, and soft-particles have none", {key, "grains.arrangement"}});
 }
 
 void check_stiffness(const Scene& scene, std::vector<SceneConflict>& found) {
@@ -109,6 +127,7 @@ void check_limits(const Scene& scene, std::vector<SceneConflict>& found) {
 std::vector<SceneConflict> sphere_conflicts(const Scene& scene) {
   std::vector<SceneConflict> found;
   check_grains(scene, found);
+  check_insertion(scene, found);
   check_stiffness(scene, found);
   check_step(scene, found);
   check_stages(scene, found);

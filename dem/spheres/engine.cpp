@@ -24,7 +24,7 @@ void SphereEngine::choose_kernels() {
   const bool rolls = law_.rolling_friction > 0;
   rotates_ = law_.friction > 0 || rolls || (law_.wall_friction > 0 && !walls_.empty());
   force_kernel_ = spheres::select_kernel(law_, free_cell_ ? Tally::stress : Tally::nothing, isa_);
-  motion_kernel_ = select_motion({rotates_, free_cell_, rolls});
+  motion_kernel_ = select_motion({rotates_, free_cell_, rolls}, isa_);
 }
 
 void SphereEngine::start_half_steps() {
@@ -40,8 +40,9 @@ void SphereEngine::start_half_steps() {
 Advance SphereEngine::advance(const MotionStep<3>& step, double) {
   const SphereMotionKernel kernel = next_motion_kernel_ ? next_motion_kernel_ : motion_kernel_;
   next_motion_kernel_ = nullptr;
+  const SphereArrays arrays = arrays_of(bodies_);
   over_chunks(team_, lists_, motion_tallies_, [&](std::size_t begin, std::size_t end) {
-    return kernel(bodies_, begin, end, step, prediction_, gravity_);
+    return kernel(arrays, begin, end, step, prediction_, gravity_);
   });
   motion_tally_ = {};
   for (const SphereMotionTally& t : motion_tallies_) {
@@ -120,6 +121,7 @@ void SphereEngine::compute_forces(const Cell& cell, const CellFlow<3>& flow, dou
 void SphereEngine::add_wall_loads(double time_step) {
   using spheres::LoadSlot;
   using spheres::Slot;
+  const WallLaw wall_law(law_);
   team_.run(lists_.chunks(), [&](int chunk) {
     const auto c = static_cast<std::size_t>(chunk);
     for (std::size_t n = near_begin_[c]; n < near_begin_[c + 1]; ++n) {
@@ -128,7 +130,7 @@ void SphereEngine::add_wall_loads(double time_step) {
       const double* row = bodies_.row(k);
       const WallMotion motion{triple_at(row + Slot::half_velocity), triple_at(row + Slot::half_surface),
                               triple_at(row + Slot::velocity), triple_at(row + Slot::surface)};
-      const WallLoad add = wall_load(law_, walls_[static_cast<std::size_t>(near.wall)], bodies_.constants[k],
+      const WallLoad add = wall_load(wall_law, walls_[static_cast<std::size_t>(near.wall)], bodies_.constants[k],
                                      bodies_.position(k), motion, time_step, near.tangential_force);
       if (!add.touches) continue;
       double* load = bodies_.load(k);

@@ -57,7 +57,7 @@ void SphereEngine::load_bodies(const State<Spheres>& state) {
       put_triple(bodies_.moment(k), m.torque[k]);
     }
   }
-  if (!begins_) next_motion_kernel_ = select_motion({rotates_, free_cell_, true});
+  if (!begins_) next_motion_kernel_ = select_motion({rotates_, free_cell_, true}, isa_);
 }
 
 void SphereEngine::load_springs(const State<Spheres>& state) {

@@ -17,20 +17,64 @@ constexpr SceneCondition has_rolling{[](const Scene& s) { return s.sphere_law.ro
 constexpr SceneCondition has_attraction{[](const Scene& s) { return s.sphere_law.attraction > 0; },
                                         "law.attraction > 0"};
 
+bool arranged(const Scene& s, SphereArrangement a) {
+  return s.sphere_grains.file.empty() && s.sphere_grains.arrangement == a;
+}
+bool is_soft(const Scene& s) {
+  return arranged(s, SphereArrangement::soft_wall) || arranged(s, SphereArrangement::soft_pair);
+}
+constexpr SceneCondition is_random{[](const Scene& s) { return arranged(s, SphereArrangement::random); },
+                                   "grains.arrangement is \"random\""};
+constexpr SceneCondition in_box{[](const Scene& s) { return arranged(s, SphereArrangement::insertion); },
+                                "grains.arrangement is \"insertion\""};
+constexpr SceneCondition in_shell{[](const Scene& s) { return is_soft(s); }, "grains.arrangement is a soft-particle's"};
+constexpr SceneCondition is_inserted{[](const Scene& s) { return in_box.holds(s) || is_soft(s); },
+                                     "grains.arrangement is not \"random\""};
+
 std::vector<SceneKey> grain_keys() {
   using S = Scene;
   using G = SphereGrainsScene;
   using namespace key_rows;
   return {
+      {.name = "grains.arrangement",
+       .field = in<&S::sphere_grains, &G::arrangement>,
+       .choices = names(kSphereArrangementNames),
+       .condition = random_start,
+       .meaning = "Where the spheres begin: random, a given number of them in a periodic cell; insertion, as many as "
+                  "hierarchical insertion (docs/spheres.md) puts into a periodic cube; soft-particle-wall and "
+                  "soft-particle-pair, the same in a rigid shell that touches a wall, or another such particle, below "
+                  "it."},
+      {.name = "grains.edge",
+       .field = in<&S::sphere_grains, &G::edge>,
+       .unit = "a",
+       .range = positive,
+       .condition = in_box,
+       .meaning = "Edge of the cube."},
+      {.name = "grains.shell_radius",
+       .field = in<&S::sphere_grains, &G::shell_radius>,
+       .unit = "a",
+       .range = positive,
+       .condition = in_shell,
+       .meaning = "R_s, radius of the shell."},
+      {.name = "grains.volume_factor",
+       .field = in<&S::sphere_grains, &G::volume_factor>,
+       .range = from(1, kInfinity),
+       .condition = is_inserted,
+       .meaning = "beta: volume of the grains that are listed over that of the room."},
+      {.name = "grains.trials",
+       .field = in<&S::sphere_grains, &G::trials>,
+       .range = from(1, 1e15),
+       .condition = is_inserted,
+       .meaning = "I: random points that each listed grain is tried at."},
       {.name = "grains.count",
        .field = in<&S::sphere_grains, &G::count>,
        .range = from(1, 1e9),
-       .condition = random_start,
+       .condition = is_random,
        .meaning = "Number N of spheres."},
       {.name = "grains.solid_fraction",
        .field = in<&S::sphere_grains, &G::solid_fraction>,
        .range = {0, 0.36, true, false},
-       .condition = random_start,
+       .condition = is_random,
        .meaning = "Solid fraction Phi_I of the initial state. Equal spheres placed at random without overlap saturate "
                   "at 0.38, hence the limit."},
       {.name = "grains.diameter_min",
@@ -170,6 +214,13 @@ std::vector<SceneKey> stage_keys() {
        .range = not_negative,
        .meaning =
            "Root mean square velocity drawn at the start of the stage, V* = sqrt(F0 D0 / m); 0: velocities are kept."},
+      {.name = "stage.approach",
+       .field = in<&S::stages, &StageScene::approach>,
+       .unit = "a/T0",
+       .condition = in_shell,
+       .meaning =
+           "Speed of the first soft-particle, shell and grains, towards its partner during this stage; negative: "
+           "away from it."},
       {.name = "stage.friction",
        .field = in<&S::stages, &StageScene::friction>,
        .range = not_negative,

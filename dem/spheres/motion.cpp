@@ -4,73 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "dem/spheres/kernel/motion_kernels.hpp"
+
 namespace isostat {
-namespace {
-
-// Triples in a vector of four, the last of which is nobody's: rows are written front to back, so that each triple
-// overwrites what the one before it left in its first place.
-using Quad __attribute__((vector_size(32))) = double;
-using UnalignedQuad __attribute__((vector_size(32), aligned(8), may_alias)) = double;
-
-Quad quad_at(const double* p) { return *reinterpret_cast<const UnalignedQuad*>(p); }
-void put(double* p, Quad q) { *reinterpret_cast<UnalignedQuad*>(p) = q; }
-Quad quad(const std::array<double, 3>& a) { return Quad{a[0], a[1], a[2], 0}; }
-
-template <bool kRotation, bool kFreeCell, bool kMoments>
-SphereMotionTally advance(SphereStore& bodies, std::size_t begin, std::size_t end, const MotionStep<3>& step,
-                          double prediction, double gravity) {
-  using spheres::LoadSlot;
-  using spheres::Slot;
-  const double dt = step.time_step, ahead = prediction * dt;
-  const Quad keep = quad(step.keep), scale = quad(step.scale);
-  const Quad drift = dt * quad(step.half_scale), zero = {0, 0, 0, 0};
-  Quad fastest = zero, kinetic = zero;
-  double *row = bodies.row(begin), *load = bodies.load(begin), *spin = bodies.spin(begin);
-  [[maybe_unused]] double* moment = bodies.moment(begin);
-  for (std::size_t k = begin; k < end;
-       ++k, row += spheres::kRowWidth, load += spheres::kLoadWidth, spin += spheres::kSpinWidth) {
-    const SphereConstants& c = bodies.constants[k];
-    const Quad acceleration = quad_at(load + LoadSlot::force) * c.inverse_mass;
-    const Quad velocity = (quad_at(row + Slot::half_velocity) + dt * acceleration) * keep;
-    const Quad predicted = velocity + ahead * acceleration;
-    const Quad before = quad_at(row + Slot::position);
-    Quad position;
-    if constexpr (kFreeCell) {
-      position = before * scale + velocity * drift;
-      kinetic += c.mass * (predicted * predicted);
-    } else {
-      position = before + dt * velocity;
-    }
-    put(row + Slot::position, position);
-    put(row + Slot::velocity, predicted);
-    put(row + Slot::half_velocity, velocity);
-    if constexpr (kRotation) {
-      Quad torque = c.radius * quad_at(load + LoadSlot::moment_per_radius);
-      if constexpr (kMoments) {
-        torque += quad_at(moment);
-        put(moment, zero);
-        moment += spheres::kSpinWidth;
-      }
-      const Quad turning = torque * c.inverse_inertia;
-      const Quad w = (quad_at(spin) + dt * turning) * step.keep_spin;
-      put(spin, w);
-      put(row + Slot::half_surface, c.radius * w);
-      put(row + Slot::surface, c.radius * (w + ahead * turning));
-    }
-    put(load + LoadSlot::force, Quad{0, 0, -(c.mass * gravity) + 0.0, 0});
-    put(load + 4, zero);
-    const Quad square = velocity * velocity;
-    fastest = square > fastest ? square : fastest;
-  }
-  return {fastest[0] + fastest[1] + fastest[2], {kinetic[0], kinetic[1], kinetic[2]}};
-}
-
-template <bool kRotation, bool kMoments>
-SphereMotionKernel in_cell(bool free) {
-  return free ? advance<kRotation, true, kMoments> : advance<kRotation, false, kMoments>;
-}
-
-}  // namespace
 
 double velocity_prediction(const SphereLaw& law, double stiffest, double time_step) {
   const double s = time_step * std::sqrt(stiffest);
@@ -79,9 +15,10 @@ double velocity_prediction(const SphereLaw& law, double stiffest, double time_st
   return std::clamp(0.5 * ((2 - 4 * s * s) / damping - 1), 0.0, 0.5);
 }
 
-SphereMotionKernel select_motion(SphereMotionNeeds needs) {
-  if (!needs.rotation) return in_cell<false, false>(needs.free_cell);
-  return needs.moments ? in_cell<true, true>(needs.free_cell) : in_cell<true, false>(needs.free_cell);
+SphereMotionKernel select_motion(SphereMotionNeeds needs, Isa isa) {
+  return isa == Isa::avx512 ? spheres::avx512_motion(needs)
+         : isa == Isa::avx2 ? spheres::avx2_motion(needs)
+                            : spheres::scalar_motion(needs);
 }
 
 }  // namespace isostat

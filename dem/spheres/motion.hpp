@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 
+#include "dem/solver/isa.hpp"
 #include "dem/solver/motion_step.hpp"
 #include "dem/spheres/sphere_law.hpp"
 #include "dem/spheres/sphere_store.hpp"
@@ -29,10 +30,18 @@ struct SphereMotionNeeds {
   bool rotation = true, free_cell = true;
   bool moments = false;  // the store's moments are not all zero
 };
+// The store's arrays; raw, so that no inline function of its is compiled for one instruction set.
+struct SphereArrays {
+  double *rows, *loads, *spins, *moments;
+  const SphereConstants* constants;
+};
+inline SphereArrays arrays_of(SphereStore& s) {
+  return {s.rows.data(), s.loads.data(), s.spins.data(), s.moments.data(), s.constants.data()};
+}
 // prediction [dt]: how far p is ahead of u. gravity [a/T0^2]: the loads of the next forces begin with the weights,
 // along -z.
-using SphereMotionKernel = SphereMotionTally (*)(SphereStore&, std::size_t begin, std::size_t end, const MotionStep<3>&,
-                                                 double prediction, double gravity);
-SphereMotionKernel select_motion(SphereMotionNeeds needs);
+using SphereMotionKernel = SphereMotionTally (*)(const SphereArrays&, std::size_t begin, std::size_t end,
+                                                 const MotionStep<3>&, double prediction, double gravity);
+SphereMotionKernel select_motion(SphereMotionNeeds needs, Isa isa);
 
 }  // namespace isostat

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <stdexcept>
 
 #include "dem/files/packing_file.hpp"
 #include "dem/input_error.hpp"
@@ -70,7 +71,71 @@ State<Spheres> state_from_file(const Scene& scene, std::uint64_t seed) {
   return state;
 }
 
+void add_grains(SpherePacking& p, const InsertedGrains<3>& grains, const Vec3& at, std::int32_t group) {
+  Bodies<3>& b = p.bodies;
+  const std::size_t before = b.size();
+  b.resize(before + grains.radius.size());
+  p.group.resize(b.size(), group);
+  for (std::size_t k = before; k < b.size(); ++k) {
+    b.id[k] = static_cast<std::int64_t>(k);
+    b.position[k] = at + grains.position[k - before];
+    b.radius[k] = grains.radius[k - before];
+  }
+}
+
+State<Spheres> inserted_spheres(const Scene& scene, std::uint64_t seed) {
+  const SphereGrainsScene& g = scene.sphere_grains;
+  State<Spheres> state = without_bodies(scene, seed);
+  SpherePacking& p = state.packing;
+  const InsertionScene insertion = insertion_of(g);
+  switch (g.arrangement) {
+    case SphereArrangement::random:
+      throw std::logic_error("inserted_spheres: grains.arrangement");
+    case SphereArrangement::insertion:
+      p.cell = PeriodicCell<3>{{{g.edge, g.edge, g.edge}}};
+      add_grains(p, insert_grains<3>(insertion, seed), {}, 0);
+      p.group.clear();
+      break;
+    case SphereArrangement::soft_wall:
+      add_soft_particle(p, insert_grains<3>(insertion, seed), {}, kFirstSoft);
+      p.walls.push_back(soft_partner_wall(g.shell_radius));
+      break;
+    case SphereArrangement::soft_pair:
+      add_soft_particle(p, insert_grains<3>(insertion, seed), {}, kFirstSoft);
+      add_soft_particle(p, insert_grains<3>(insertion, seed + kSecondStream), (2 * g.shell_radius) * kSoftApproach,
+                        kSecondSoft);
+      break;
+  }
+  set_sphere_inertia(p.bodies, g.density);
+  set_time_step(state);
+  return state;
+}
+
 }  // namespace
+
+InsertionScene insertion_of(const SphereGrainsScene& g) {
+  InsertionScene i;
+  i.room = g.arrangement == SphereArrangement::insertion ? InsertionRoom::box : InsertionRoom::shell;
+  i.shell_radius = g.shell_radius;
+  i.box = {g.edge, g.edge, g.edge};
+  i.radius_min = g.diameter_min / 2, i.radius_max = g.diameter_max / 2, i.exponent = g.exponent.value_or(0);
+  i.volume_factor = g.volume_factor, i.trials = g.trials;
+  return i;
+}
+
+void add_soft_particle(SpherePacking& p, const InsertedGrains<3>& grains, const Vec3& centre, std::int32_t group) {
+  add_grains(p, grains, centre, group);
+  SphereWall shell;
+  shell.shape = WallShape::shell, shell.point = centre, shell.radius = grains.enclosure.shell_radius;
+  shell.group = group;
+  p.walls.push_back(shell);
+}
+
+SphereWall soft_partner_wall(double shell_radius) {
+  SphereWall wall;
+  wall.point = shell_radius * kSoftApproach, wall.normal = -1.0 * kSoftApproach;
+  return wall;
+}
 
 void set_sphere_inertia(Bodies<3>& b, double density) {
   for (std::size_t k = 0; k < b.size(); ++k) {
@@ -83,6 +148,7 @@ void set_sphere_inertia(Bodies<3>& b, double density) {
 State<Spheres> initial_spheres(const Scene& scene, std::uint64_t seed) {
   const SphereGrainsScene& g = scene.sphere_grains;
   if (!g.file.empty()) return state_from_file(scene, seed);
+  if (g.arrangement != SphereArrangement::random) return inserted_spheres(scene, seed);
   State<Spheres> state = without_bodies(scene, seed);
   Random random(seed);
   const auto n = static_cast<std::size_t>(g.count);

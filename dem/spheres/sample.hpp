@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 
+#include "dem/sample/insertion.hpp"
 #include "dem/spheres/spheres.hpp"
 
 namespace isostat {
@@ -9,8 +10,21 @@ namespace isostat {
 // Mass by density [m/a^3] and inertia 2/5 m R^2 of bodies with radii.
 void set_sphere_inertia(Bodies<3>& bodies, double density);
 
-// N spheres at random positions without overlap in a cube, or the packing of grains.file under the scene's law.
-// Throws InputError if they do not fit, or the file is no packing of spheres.
+// Soft-particles (seed 000): the groups of the first and of the one below it, the direction in which the first goes,
+// and what tells the random stream of the second packing of a seed from that of the first.
+inline constexpr std::int32_t kFirstSoft = 0, kSecondSoft = 1;
+inline constexpr Vec3 kSoftApproach{{0, 0, -1}};
+inline constexpr std::uint64_t kSecondStream = std::uint64_t{1} << 32;
+// Adds grains and their shell around a centre as a group of their own.
+void add_soft_particle(SpherePacking& packing, const InsertedGrains<3>& grains, const Vec3& centre, std::int32_t group);
+// The wall that a shell around the origin touches.
+SphereWall soft_partner_wall(double shell_radius);
+
+// What a scene with another arrangement than random asks of insertion.
+InsertionScene insertion_of(const SphereGrainsScene& grains);
+
+// N spheres at random positions without overlap in a cube, what hierarchical insertion makes, or the packing of
+// grains.file under the scene's law. Throws InputError if they do not fit, or the file is no packing of spheres.
 State<Spheres> initial_spheres(const Scene& scene, std::uint64_t seed);
 
 }  // namespace isostat

@@ -9,8 +9,19 @@
 
 namespace isostat {
 
-// [grains]: N spheres of a size distribution, in random non-overlapping positions in a periodic cell.
+// Where spheres begin: N of them at random in a periodic cell; by hierarchical insertion (dem/sample/insertion.hpp) in
+// a cell of given edge; or in a rigid shell, a soft-particle (seed 000), that touches a wall or another one below it.
+enum class SphereArrangement { random, insertion, soft_wall, soft_pair };
+inline constexpr std::array<std::string_view, 4> kSphereArrangementNames{"random", "insertion", "soft-particle-wall",
+                                                                         "soft-particle-pair"};
+
+// [grains]
 struct SphereGrainsScene {
+  SphereArrangement arrangement = SphereArrangement::random;
+  double edge = 8;           // [a] of the cell, by insertion
+  double shell_radius = 1;   // R_s [a] of a soft-particle
+  double volume_factor = 3;  // beta: volume of the listed grains over that of the room, by insertion
+  double trials = 3e4;       // I: random points tried for each grain, by insertion
   int count = 1000;
   double solid_fraction = 0.3;            // [-] Phi_I
   double diameter_min = 0.5;              // [a]

@@ -30,8 +30,6 @@ struct SphereLaw {
   double rolling_stiffness = 0;     // K_r [F0 a]
   double attraction = 0;            // F0 [F0]
   double attraction_range = 0;      // D0 [a]
-  // False of a foreign packing, which has none.
-  bool known() const { return (normal == NormalForce::hertz ? grain.modulus : normal_stiffness) > 0; }
   friend bool operator==(const SphereLaw&, const SphereLaw&) = default;
 };
 SphereLaw resolve(const SphereLawScene& law);

@@ -7,7 +7,7 @@
 
 namespace isostat {
 
-// Friction as stage.friction says, from this stage on.
+// Friction as stage.friction says, from this stage on, and the speed of a soft-particle as stage.approach says.
 void prepare_stage(State<Spheres>& state, const StageScene& stage);
 
 // Maxwell velocities as of disks: no drift, rms |v| = stage.velocity V*, spins zero. Nothing if the stage draws none.

@@ -30,7 +30,8 @@ bool joins(const Record& r, const SpherePacking& p) {
 
 Broken memory_fault(const SphereMemory& m, const SpherePacking& packing) {
   if (!packing.beams.empty()) return StateFault{"links", "beams are of the plane"};
-  if (!packing.part.empty()) return StateFault{"particles/grains/part", "spheres make no walls"};
+  if (!packing.part.empty() || !packing.feet.empty())
+    return StateFault{"particles/grains/part", "spheres make no walls"};
   const std::size_t n = packing.bodies.size();
   if (!packing.group.empty() && packing.group.size() != n)
     return StateFault{"particles/grains/group", "neither one element a grain nor none"};

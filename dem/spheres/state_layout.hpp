@@ -14,8 +14,8 @@ template <class Io>
 void transfer_packing(Io& io, SpherePacking& packing) {
   static_assert(sizeof(SpherePacking) == sizeof(Packing<3>) + 3 * sizeof(std::vector<int>),
                 "a new member needs its place here");
-  auto& [cell, bodies, links, beams, part] = static_cast<Packing<3>&>(packing);
-  static_cast<void>(beams), static_cast<void>(part);  // refused by state_fault(): of the plane
+  auto& [cell, bodies, links, beams, part, feet] = static_cast<Packing<3>&>(packing);
+  static_cast<void>(beams), static_cast<void>(part), static_cast<void>(feet);  // refused by state_fault(): of the plane
   auto& [id, position, velocity, spin, radius, mass, inertia] = bodies;
   const std::string grains = "/particles/grains";
   const std::size_t n = io.count(grains + "/id", id.size());

@@ -1,5 +1,5 @@
-// What the static forces of the links of a packing in space add up to: loads of the bodies and the stress of the cell.
-// Knows no law. The twin of dem/state/balance.hpp.
+// What the static forces of the links add up to in space: loads of the bodies and the stress of the cell; the twin of
+// dem/state/balance.hpp.
 #pragma once
 #include <array>
 #include <vector>
@@ -8,11 +8,10 @@
 
 namespace isostat {
 
-// (1/V) [sum m v_a v_b + sum over links F_a r_b], each pair once, compression positive, peculiar velocities, static
-// forces [F0/a^2]; rows a, columns b.
+// (1/V) [sum m v_a v_b + sum over links F_a r_b], compression positive: rows a, columns b [F0/a^2]. Needs a cell.
 using StressTensor3 = std::array<Vec3, 3>;
 inline Vec3 diagonal(const StressTensor3& s) { return {{s[0][0], s[1][1], s[2][2]}}; }
-StressTensor3 measured_stress(const Packing<3>& packing);  // needs a cell
+StressTensor3 measured_stress(const Packing<3>& packing);
 
 struct BodyLoad3 {
   Vec3 force{}, moment{};  // [F0], [F0 a]

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "dem/state/link.hpp"
+#include "dem/state/link_3d.hpp"
 #include "dem/state/packing.hpp"
 
 namespace isostat {
@@ -39,5 +40,6 @@ LinkEnds<D> ends(const Packing<D>& packing, const Link<D>& link) {
 inline LinkFrame<double> frame(const LinkEnds<2>& e) {
   return link_frame(e.branch[0], e.branch[1], e.radius_i, e.radius_j);
 }
+inline LinkFrame3<double> frame(const LinkEnds<3>& e) { return link_frame(e.branch.c, e.radius_i, e.radius_j); }
 
 }  // namespace isostat

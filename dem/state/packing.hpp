@@ -83,6 +83,14 @@ struct Beam {
   friend bool operator==(const Beam&, const Beam&) = default;
 };
 
+// A body of radius and mass 0 where a grain touches a smooth wall (dem/state/smooth_walls.hpp): what its body does not
+// say.
+struct Foot {
+  std::int32_t wall = 0;  // its number
+  double turning = 0;     // [1/a] of the normal, FootPoint::turning
+  friend bool operator==(const Foot&, const Foot&) = default;
+};
+
 template <int D>
 struct Packing {
   std::optional<PeriodicCell<D>> cell;  // none: isolated
@@ -90,6 +98,9 @@ struct Packing {
   std::vector<Link<D>> links;
   std::vector<Beam> beams;      // of the links of kind beam; in the plane only
   std::vector<GrainPart> part;  // of the bodies; empty: all are free
+  std::vector<Foot> feet;       // of the last bodies
+  // Bodies before the first foot.
+  std::size_t grains() const { return bodies.size() - feet.size(); }
 };
 
 template <int D>

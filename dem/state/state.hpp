@@ -22,9 +22,10 @@ struct CellMotion {
 struct EnergyLedger {
   double viscous = 0, sliding = 0, rolling = 0, drag = 0;  // [F0 a] dissipated
   double cell_work = 0;                                    // [F0 a] done by the moving cell on the bodies
-  double injected = 0;                                     // [F0 a] by drawing velocities, changing parameters
+  double injected = 0;   // [F0 a] by drawing velocities, changing parameters, taking grains away (negative)
+  double wall_work = 0;  // [F0 a] done by the moving container on the bodies
   // The forces at `time` act half before it and half after: the latter halves, due with the next step [F0 a].
-  double viscous_due = 0, cell_work_due = 0;
+  double viscous_due = 0, cell_work_due = 0, wall_work_due = 0;
 };
 
 // Where the run stands in the scene's stages.

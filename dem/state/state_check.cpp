@@ -26,10 +26,24 @@ Broken check_links(const Packing<D>& packing) {
   return std::nullopt;
 }
 
+// They stand last and are held.
+template <int D>
+Broken feet_fault(const Packing<D>& packing) {
+  const std::size_t n = packing.bodies.size();
+  if (packing.feet.empty()) return std::nullopt;
+  if (packing.feet.size() > n || packing.part.size() != n)
+    return StateFault{"feet", "are more than the bodies of walls"};
+  for (std::size_t k = packing.grains(); k < n; ++k)
+    if (is_free(packing.part, k)) return StateFault{"feet", "one is no part of a wall"};
+  for (const Foot& foot : packing.feet)
+    if (foot.wall < 0 || !finite(foot.turning)) return StateFault{"feet", "a wall or turning that cannot be"};
+  return std::nullopt;
+}
+
 }  // namespace
 
 template <int D>
-std::optional<StateFault> bodies_fault(const Bodies<D>& b, const std::string& group) {
+std::optional<StateFault> bodies_fault(const Bodies<D>& b, const std::string& group, std::size_t points) {
   const std::size_t n = b.size();
   for (const std::size_t size :
        {b.position.size(), b.velocity.size(), b.spin.size(), b.radius.size(), b.mass.size(), b.inertia.size()})
@@ -41,9 +55,9 @@ std::optional<StateFault> bodies_fault(const Bodies<D>& b, const std::string& gr
   if (auto f = check_values(b.position, group + "/position")) return f;
   if (auto f = check_values(b.velocity, group + "/velocity")) return f;
   if (auto f = check_values(b.spin, group + "/spin")) return f;
-  if (auto f = check_values(b.radius, group + "/radius", true)) return f;
-  if (auto f = check_values(b.mass, group + "/mass", true)) return f;
-  if (auto f = check_values(b.inertia, group + "/inertia", true)) return f;
+  if (auto f = check_values(b.radius, group + "/radius", true, points)) return f;
+  if (auto f = check_values(b.mass, group + "/mass", true, points)) return f;
+  if (auto f = check_values(b.inertia, group + "/inertia", true, points)) return f;
   return std::nullopt;
 }
 
@@ -59,7 +73,8 @@ std::optional<StateFault> cell_fault(const std::optional<PeriodicCell<D>>& cell,
 template <int D>
 std::optional<StateFault> packing_fault(const Packing<D>& packing) {
   const std::string group = "particles/grains";
-  if (auto f = bodies_fault(packing.bodies, group)) return f;
+  if (auto f = feet_fault(packing)) return f;
+  if (auto f = bodies_fault(packing.bodies, group, packing.feet.size())) return f;
   if (auto f = cell_fault(packing.cell, group)) return f;
   if (!packing.part.empty() && packing.part.size() != packing.bodies.size())
     return StateFault{group + "/part", "neither one element a grain nor none"};
@@ -67,7 +82,7 @@ std::optional<StateFault> packing_fault(const Packing<D>& packing) {
     if (part > GrainPart::lid) return StateFault{group + "/part", "a part that is neither free, wall nor lid"};
   return check_links(packing);
 }
-template std::optional<StateFault> bodies_fault(const Bodies<2>&, const std::string&);
+template std::optional<StateFault> bodies_fault(const Bodies<2>&, const std::string&, std::size_t);
 template std::optional<StateFault> cell_fault(const std::optional<PeriodicCell<2>>&, const std::string&);
 template std::optional<StateFault> packing_fault(const Packing<2>&);
 template std::optional<StateFault> packing_fault(const Packing<3>&);

@@ -30,13 +30,15 @@ bool finite(const std::array<Vec2, N>& vectors) {
   return std::all_of(vectors.begin(), vectors.end(), [](const Vec2& v) { return finite(v); });
 }
 
-// Every element finite, and positive where asked.
+// Every element finite, and positive where asked, but for the last ones, so many, which are then 0.
 template <class T>
-std::optional<StateFault> check_values(const std::vector<T>& values, const std::string& field, bool positive = false) {
+std::optional<StateFault> check_values(const std::vector<T>& values, const std::string& field, bool positive = false,
+                                       std::size_t zeros = 0) {
   for (std::size_t k = 0; k < values.size(); ++k) {
     if (!finite(values[k])) return StateFault{field, "element " + std::to_string(k) + " is not a finite number"};
     if constexpr (std::is_same_v<T, double>)
-      if (positive && !(values[k] > 0)) return StateFault{field, "element " + std::to_string(k) + " is not positive"};
+      if (positive && !(k < values.size() - zeros ? values[k] > 0 : values[k] == 0))
+        return StateFault{field, "element " + std::to_string(k) + " is not positive"};
   }
   return std::nullopt;
 }
@@ -60,9 +62,10 @@ std::optional<StateFault> lists_fault(const ListMemory<D>& m) {
 
 }  // namespace state_check
 
-// The first broken rule of ids, arrays and numbers, if any; `group` is where they lie in the file.
+// The first broken rule of ids, arrays and numbers, if any; `group` is where they lie in the file. The last bodies, so
+// many, are points without radius, mass and inertia.
 template <int D>
-std::optional<StateFault> bodies_fault(const Bodies<D>& bodies, const std::string& group);
+std::optional<StateFault> bodies_fault(const Bodies<D>& bodies, const std::string& group, std::size_t points = 0);
 template <int D>
 std::optional<StateFault> cell_fault(const std::optional<PeriodicCell<D>>& cell, const std::string& group);
 

@@ -12,26 +12,13 @@
 namespace isostat {
 namespace {
 
-bool collides(const TriangleGrainsScene& g) { return g.file.empty() && g.arrangement == Arrangement::collision; }
-
 void check_grains(const Scene& scene, std::vector<SceneConflict>& found) {
   const TriangleGrainsScene& g = scene.triangle_grains;
-  if (g.file.empty() && !collides(g) && g.size_min > g.size_max)
+  if (g.file.empty() && !is_collision(scene) && g.size_min > g.size_max)
     found.push_back({"grains.size_min",
                      real_text(g.size_min),
                      "at most grains.size_max = " + real_text(g.size_max),
                      {"grains.size_min", "grains.size_max"}});
-  if (collides(g) && scene.container.shape != ContainerShape::none)
-    found.push_back({"grains.arrangement",
-                     quoted_text("collision"),
-                     "two squares collide in free space: container.shape is \"none\"",
-                     {"grains.arrangement", "container.shape", "grains.file"}});
-  for (std::size_t i = 0; collides(g) && i < scene.stages.size(); ++i)
-    for (const std::string& key : cell_keys(scene.stages[i], i))
-      found.push_back({key,
-                       "",
-                       "a key of the periodic cell, and two squares collide in free space",
-                       {key, "grains.arrangement", "grains.file"}});
 }
 
 void check_law(const Scene& scene, std::vector<SceneConflict>& found) {
@@ -48,9 +35,10 @@ void check_law(const Scene& scene, std::vector<SceneConflict>& found) {
 // Step, and walls in motion against it. Of a file the grains are not known here (dem/triangles/sample.cpp).
 void check_step(const Scene& scene, std::vector<SceneConflict>& found) {
   const TriangleGrainsScene& g = scene.triangle_grains;
-  if (!g.file.empty() || (!collides(g) && g.size_min > g.size_max)) return;
-  const std::vector<std::string> shapes = collides(g) ? std::vector<std::string>{"square"} : shape_names(g.shape);
-  const double size = collides(g) ? g.size_max : g.size_min, modulus = scene.triangle_law.modulus;
+  if (!g.file.empty() || (!is_collision(scene) && g.size_min > g.size_max)) return;
+  const std::vector<std::string> shapes =
+      is_collision(scene) ? std::vector<std::string>{"square"} : shape_names(g.shape);
+  const double size = is_collision(scene) ? g.size_max : g.size_min, modulus = scene.triangle_law.modulus;
   double fastest = 0, stable = std::numeric_limits<double>::infinity(), smallest = stable;
   for (const std::string& shape : shapes) try {
       const GrainTemplate grain = grain_template(grain_shape(shape, size), material_of(scene));

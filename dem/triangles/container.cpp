@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "dem/state/container_region.hpp"
+#include "dem/state/container_walls.hpp"
 #include "dem/triangles/grain_shape.hpp"
 #include "dem/triangles/time_step.hpp"
 
@@ -14,26 +14,6 @@ namespace {
 constexpr double kHalfPlane = 20;  // [area of the largest grain] at least, of a smooth wall
 constexpr int kFewestFacets = 48;  // of a smooth drum
 constexpr double kFitted = 1e-9;   // relative: a length that is a whole number of squares to rounding is one
-
-// From a to b, with the room on the left. It is continued beyond an end where another wall joins it, so that grains
-// find no gap there.
-struct Wall {
-  Vec2 a, b;
-  bool joined_a = true, joined_b = true;
-  GrainPart part = GrainPart::wall;
-};
-
-std::vector<Wall> walls_of(const ContainerScene& c) {
-  const double x = 0.5 * c.width, top = region_top(c), knee = slope_height(c);
-  if (c.shape == ContainerShape::box)
-    return {{{{-x, top}}, {{-x, 0}}, false, true}, {{{-x, 0}}, {{x, 0}}}, {{{x, 0}}, {{x, top}}, true, false}};
-  const double o = 0.5 * c.opening;
-  return {{{{-x, top}}, {{-x, knee}}, false, true},
-          {{{-x, knee}}, {{-o, 0}}, true, false},
-          {{{-o, 0}}, {{o, 0}}, true, true, GrainPart::lid},
-          {{{o, 0}}, {{x, knee}}, false, true},
-          {{{x, knee}}, {{x, top}}, true, false}};
-}
 
 class Builder {
  public:
@@ -45,7 +25,7 @@ class Builder {
     if (c_.shape == ContainerShape::drum)
       ring(rows);
     else if (c_.shape != ContainerShape::none)
-      for (const Wall& w : walls_of(c_)) rows ? row(w) : plate(w);
+      for (const FlatWall& w : flat_walls(c_)) rows ? row(w) : plate(w);
     return std::move(grains_);
   }
 
@@ -66,7 +46,7 @@ class Builder {
           part);
   }
 
-  void plate(const Wall& w) {
+  void plate(const FlatWall& w) {
     const Vec2 way = w.b - w.a, along = (1 / norm(way)) * way;
     const double depth = thickness(norm(way));
     const Vec2 from = w.joined_a ? w.a - depth * along : w.a, to = w.joined_b ? w.b + depth * along : w.b;
@@ -74,7 +54,7 @@ class Builder {
   }
 
   // Squares of the side next below wall_size that fits. At the edge of an outlet one stands flush.
-  void row(const Wall& w) {
+  void row(const FlatWall& w) {
     const Vec2 way = w.b - w.a, along = (1 / norm(way)) * way, outwards{{along[1], -along[0]}};
     const int count = std::max(1, static_cast<int>(std::ceil(norm(way) / c_.wall_size * (1 - kFitted))));
     const double side = norm(way) / count;

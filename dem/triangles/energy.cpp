@@ -10,6 +10,7 @@ namespace isostat {
 TriangleEnergies energies(const State<TriangleGrains>& s) {
   const TrianglePacking& p = s.packing;
   TriangleEnergies e;
+  e.ledger = s.ledger;
   for (std::size_t g = 0; g < p.grains.size(); ++g) {
     if (p.grains.part[g] != GrainPart::free) continue;
     for (auto k = idx(p.grains.begin[g]); k < idx(p.grains.begin[g + 1]); ++k) {

@@ -1,5 +1,6 @@
 // Where the energy of a state of triangle grains is [erg].
 #pragma once
+#include "dem/state/energy.hpp"
 #include "dem/triangles/triangles.hpp"
 
 namespace isostat {
@@ -10,7 +11,10 @@ struct TriangleEnergies {
   double overlaps = 0;  // Y A_c^2/(2 L_c); not a number with the paper's law, whose forces have no energy
   double springs = 0;   // T^2/(2 k_t)
   double weight = 0;    // m g y
-  double total() const { return kinetic + beams + overlaps + springs + weight; }
+  EnergyLedger ledger;
+  double stored() const { return kinetic + beams + overlaps + springs + weight; }
+  // Constant in an exact integration, but for what beams take along that break or yield.
+  double total() const { return stored() + dissipated(ledger) - put_in(ledger); }
 };
 TriangleEnergies energies(const State<TriangleGrains>& state);
 

@@ -38,11 +38,15 @@ TriangleEngine::TriangleEngine(const State<TriangleGrains>& state, const CellCon
       motion_(container_motion_of(state)),
       surroundings_(state.surroundings),
       stage_start_(state.progress.start_time),
+      ledger_(state.ledger),
       begins_(state.memory.half_velocity.empty()),
+      energies_(options.energies),
       kinetic_(control.moves()),
       kernels_(triangle_kernels(overlap_needs_, {law_.damping > 0, control.moves()}, kinetic_, options.isa)),
       team_(options.threads) {
   load(state);
+  // A stage begins: from here on the container moves in another way than it did.
+  if (energies_ && !begins_ && time_ == stage_start_) ledger_.wall_work_due = 0.5 * dt_ * wall_power();
 }
 
 void TriangleEngine::load(const State<TriangleGrains>& state) {
@@ -81,7 +85,10 @@ void TriangleEngine::cut_chunks() {
 // ---- motion ---------------------------------------------------------------------------------------------------------
 
 void TriangleEngine::start_half_steps() {
-  if (integrator_ == Integrator::gear) return;  // velocities are at the full step
+  if (integrator_ == Integrator::gear) {  // velocities are at the full step
+    if (energies_) set_work_due();
+    return;
+  }
   for (std::size_t s = 0; s < store_.free_slots(); ++s) {
     const double h = 0.5 * dt_, im = store_[Store::inverse_mass][s];
     store_[Store::ux][s] -= h * store_[Store::fx][s] * im;
@@ -93,10 +100,12 @@ void TriangleEngine::start_half_steps() {
     const double m = store_[Store::mass][s], vx = store_[Store::px][s], vy = store_[Store::py][s];
     drift_tally_.kinetic[0] += m * vx * vx, drift_tally_.kinetic[1] += m * vy * vy;
   }
+  if (energies_) set_work_due();
 }
 
 Advance TriangleEngine::advance(const MotionStep<2>& step, double drag) {
   drag_ = drag;
+  if (energies_) integrator_ == Integrator::gear ? add_gear_drag() : brake_ledger(step);
   double move = integrator_ == Integrator::gear ? predict() : drift(step);
   time_ = step.time;
   move_container();
@@ -156,7 +165,7 @@ void TriangleEngine::move_container() {
 // ---- forces ---------------------------------------------------------------------------------------------------------
 
 void TriangleEngine::compute_forces(const Cell& cell, const CellFlow<2>& flow, double time_step) {
-  cell_ = cell;
+  cell_ = cell, flow_ = flow;
   if (kinetic_) candidates_.set_offsets(cell);
   const GrainArrays arrays = store_.arrays();
   OverlapInput in;
@@ -207,6 +216,7 @@ StressSums<2> TriangleEngine::sums() const {
 }
 
 void TriangleEngine::keep_books() {
+  if (energies_) add_works();
   if (law_.failure == BeamFailure::none) return;
   if (strain_beams()) split_grains();
 }

@@ -32,7 +32,7 @@ class TriangleEngine {
   void compute_forces(const Cell& cell, const CellFlow<2>& flow, double time_step);
   void correct();  // of Gear's scheme, with the forces at the predicted positions
   StressSums<2> sums() const;
-  void keep_books();  // beams that fail in this step
+  void keep_books();  // of the step that ends, if the ledger is kept; beams that fail in it
 
   void set_law(const TriangleLaw&, Springs) {}  // no stage changes it
   void snapshot(State<TriangleGrains>& state) const;
@@ -59,6 +59,16 @@ class TriangleEngine {
   double predict();
   void snapshot_bodies(State<TriangleGrains>& state) const;
   void snapshot_memory(State<TriangleGrains>& state) const;
+  struct SlotMotion {
+    double vx, vy, spin;
+  };
+  SlotMotion full_step_motion(std::size_t slot) const;
+  void brake_ledger(const MotionStep<2>& step);
+  void add_gear_drag();
+  void add_works();
+  void set_work_due();
+  double viscous_power() const;
+  double wall_power() const;
   // Stretches, breaks and yields; true if a beam has broken.
   bool strain_beams();
   void split_grains();
@@ -70,7 +80,8 @@ class TriangleEngine {
   ContainerMotionScene motion_;
   Surroundings surroundings_;
   double stage_start_ = 0;
-  bool begins_, kinetic_;
+  EnergyLedger ledger_;
+  bool begins_, energies_, kinetic_;
   TriangleKernels kernels_;
   Team team_;
   GrainStore store_;
@@ -86,6 +97,7 @@ class TriangleEngine {
   OverlapTally overlap_tally_;
   BeamTally beam_tally_;
   Cell cell_;
+  CellFlow<2> flow_;           // of the last forces
   double smallest_reach_ = 0;  // [cm]
   double container_move_ = 0;  // [cm] by the container in the last step
   std::vector<BeamEvent> events_;

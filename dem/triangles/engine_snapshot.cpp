@@ -10,6 +10,7 @@ namespace isostat {
 using Store = GrainStore;
 
 void TriangleEngine::snapshot(State<TriangleGrains>& s) const {
+  s.ledger = ledger_;
   s.law = law_;
   snapshot_bodies(s);
   snapshot_memory(s);

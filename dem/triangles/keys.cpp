@@ -8,11 +8,6 @@ namespace {
 using G = TriangleGrainsScene;
 using L = TriangleLawScene;
 
-bool collides(const Scene& s) { return s.triangle_grains.arrangement == Arrangement::collision; }
-constexpr SceneCondition random_places{[](const Scene& s) { return key_rows::random_start.holds(s) && !collides(s); },
-                                       "grains.file is empty and grains.arrangement is \"random\""};
-constexpr SceneCondition collision{[](const Scene& s) { return key_rows::random_start.holds(s) && collides(s); },
-                                   "grains.file is empty and grains.arrangement is \"collision\""};
 constexpr SceneCondition has_friction{[](const Scene& s) { return s.triangle_law.friction > 0; }, "law.friction > 0"};
 constexpr SceneCondition has_failure{[](const Scene& s) { return s.triangle_law.failure != BeamFailure::none; },
                                      "law.failure is not \"none\""};

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "dem/state/container_motion.hpp"
+#include "dem/triangles/energy.hpp"
 #include "dem/triangles/grain_split.hpp"
 #include "geometry/base/index.hpp"
 
@@ -20,13 +21,21 @@ GrainSum sum_of(const TrianglePacking& p, std::size_t g) {
   return sum;
 }
 
+// What they hold goes with them.
+void take_out(State<TriangleGrains>& s, const std::vector<bool>& gone) {
+  const bool books = s.scene.output.energies;
+  const double before = books ? energies(s).stored() : 0;
+  remove_grains(s, gone);
+  if (books) s.ledger.injected += energies(s).stored() - before;
+}
+
 }  // namespace
 
 void open_outlet(State<TriangleGrains>& s) {
   s.surroundings.open = true;
   std::vector<bool> gone(s.packing.grains.size());
   for (std::size_t g = 0; g < gone.size(); ++g) gone[g] = s.packing.grains.part[g] == GrainPart::lid;
-  if (std::find(gone.begin(), gone.end(), true) != gone.end()) remove_grains(s, gone);
+  if (std::find(gone.begin(), gone.end(), true) != gone.end()) take_out(s, gone);
 }
 
 bool take_away(State<TriangleGrains>& s) {
@@ -42,7 +51,7 @@ bool take_away(State<TriangleGrains>& s) {
   }
   if (!any) return false;
   s.surroundings.last_left = s.time;
-  remove_grains(s, gone);
+  take_out(s, gone);
   return true;
 }
 

@@ -6,10 +6,9 @@
 #include <string>
 #include <string_view>
 
-namespace isostat {
+#include "dem/scene/arrangement.hpp"
 
-enum class Arrangement { random, collision };
-inline constexpr std::array<std::string_view, 2> kArrangementNames{"random", "collision"};
+namespace isostat {
 
 // [grains] of triangles.
 struct TriangleGrainsScene {

@@ -81,6 +81,11 @@ std::vector<SeriesColumn> series_columns(const State<TriangleGrains>& s, bool wi
          {"E_overlaps", e.overlaps},
          {"E_springs", e.springs},
          {"E_weight", e.weight},
+         {"E_viscous", e.ledger.viscous},
+         {"E_sliding", e.ledger.sliding},
+         {"E_drag", e.ledger.drag},
+         {p.cell ? "E_cell_work" : "E_wall_work", p.cell ? e.ledger.cell_work : e.ledger.wall_work},
+         {"E_injected", e.ledger.injected},
          {"E_total", e.total()}});
   return columns;
 }

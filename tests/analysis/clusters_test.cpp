@@ -37,11 +37,11 @@ TEST(RigidClusters, CanonicalCases) {
   EXPECT_EQ(sizes(rigid_clusters(cluster("sliding_spin"), NetworkLaw::friction, false)), (V{3}));
   const auto lattice = rigid_clusters(cluster("periodic_triangular4"), NetworkLaw::friction, false);
   ASSERT_EQ(lattice.clusters.size(), 1u);
-  EXPECT_EQ(lattice.clusters[0].spans, (std::array<bool, 2>{true, true}));
+  EXPECT_EQ(lattice.clusters[0].spans, (std::array<bool, 3>{true, true}));
   EXPECT_EQ(lattice.clusters[0].hyperstatic, 14);
   const auto chain = rigid_clusters(cluster("periodic_chain"), NetworkLaw::rolling, true);
   ASSERT_EQ(chain.clusters.size(), 1u);
-  EXPECT_EQ(chain.clusters[0].spans, (std::array<bool, 2>{true, false}));
+  EXPECT_EQ(chain.clusters[0].spans, (std::array<bool, 3>{true, false}));
 }
 
 // Oracle: two linked grains are rigidly connected if every null vector of the dense G moves them as one.

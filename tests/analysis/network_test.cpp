@@ -171,7 +171,8 @@ TEST(Counts, SpheresInSpace) {
   const Json json = counts_section(input, {});
   EXPECT_NEAR(json["solid_fraction"], std::numbers::pi / 6, 1e-15);
   EXPECT_DOUBLE_EQ(json["z"], 6);
-  EXPECT_EQ(refusal(input, "stress"), "is defined for packings in the plane; this one is in 3D");
+  EXPECT_EQ(refusal(input, "stress"), "needs forces: this input has none");
+  EXPECT_EQ(refusal(input, "pores"), "is defined for packings in the plane; this one is in 3D");
   const std::vector<Table> tables = counts_tables(input, {});
   EXPECT_EQ(tables.at(0).columns[3], "z");
   EXPECT_EQ(tables.at(0).rows.at(0), (std::vector<double>{0, 0, 0, 0, 0.5, 6, 6, 0}));

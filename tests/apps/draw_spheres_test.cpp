@@ -39,6 +39,18 @@ TEST_F(DrawSpheres, FromAllSides) {
   EXPECT_NE(content(in_folder("one.svg")).find("compressive"), std::string::npos);
 }
 
+TEST_F(DrawSpheres, RigidClusters) {
+  write("four.net",
+        "grain 1 0 0 0 .5\ngrain 2 1 0 0 .5\ngrain 3 .5 .8660254 0 .5\ngrain 4 .5 .2886751 .8164966 .5\ngrain 5 3 0 0 "
+        ".5\n"
+        "contact 1 2 c\ncontact 1 3 c\ncontact 2 3 c\ncontact 1 4 c\ncontact 2 4 c\ncontact 3 4 c\n");
+  ASSERT_EQ(run("draw " + in_folder("four.net") + " --what clusters -o " + in_folder("c.svg")).code, 0);
+  const std::string picture = content(in_folder("c.svg"));
+  EXPECT_EQ(count(picture, "<circle"), 7u);  // two in the legend; 18 rows hold 24 - 6 dofs
+  EXPECT_NE(picture.find("isostatic cluster"), std::string::npos);
+  EXPECT_NE(picture.find("single"), std::string::npos);
+}
+
 TEST_F(DrawSpheres, Slices) {
   const std::string state = spheres("a", 2);
   ASSERT_EQ(run("draw " + state + "--slice z=1.3 --what grains -o " + in_folder("s.svg")).code, 0);
@@ -65,7 +77,7 @@ TEST_F(DrawSpheres, RefusesWithOneSentence) {
   write("flat.net", "grain 1 0 0 .5\ngrain 2 1 0 .5\ncontact 1 2 c\n");
   const std::string flat = in_folder("flat.net") + " ";
   for (const std::string& arguments :
-       {state + "--what pores ", state + "--what modes ", state + "--what clusters ", state + "--view w ",
+       {state + "--what pores ", state + "--what modes ", state + "--slice z=1 --what clusters ", state + "--view w ",
         state + "--view 10 ", state + "--view 10,91 ", state + "--view 10,2x ", state + "--view nan,0 ",
         state + "--slice z ", state + "--slice w=1 ", state + "--slice z=one ", state + "--slice z=1 --view z ",
         state + "--slice z=3.5 ", state + "--what grains --threshold 1 ", still + "--what forces ", flat + "--view x ",
@@ -80,6 +92,7 @@ TEST_F(DrawSpheres, RefusesWithOneSentence) {
 TEST_F(DrawSpheres, ParaViewHasGroupsAndWalls) {
   spheres("a", 2);
   State<Spheres> state = read_state<Spheres>(in_folder("a.h5"));
+  state.law.grain.modulus = 1e4;
   state.packing.group = {0, 1, 1};
   state.packing.walls = {{WallShape::plane, {{0, 0, 0.5}}, {{0, 0, 1}}, 0, {}, SphereWall::kEveryGroup}};
   state.packing.wall_links = {{0, 0, LinkKind::closed, 0, 2, {}}};

@@ -1,9 +1,11 @@
 // Speed of the step of spheres on dense static packings, by instruction set: million grain-steps per CPU second and the
 // time of each stage [ns a grain-step].
-//   spheres_bench PACKING.net... [--law KEYWORD] [--copies N] [--steps N] [--threads N] [--rebuild]
+//   spheres_bench PACKING.net... [--law KEYWORD] [--copies N] [--steps N] [--threads N] [--rebuild] [--shell] [--isa
+//   NAME]
 // A packing is read as grains in a periodic cell, put N times beside itself along each edge (--copies N), and relaxed
 // for some steps under Hertz and Mindlin's law with E = 1e6, nu = .3, mu = .3, zeta = .3, density 1. KEYWORD: friction
-// (default), frictionless, rolling. --rebuild: the outer list anew every 20 steps, as in a flow.
+// (default), frictionless, rolling. --rebuild: the outer list anew every 20 steps, as in a flow. --shell: the
+// grains that fit into a shell in the cell, without the cell.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -21,10 +23,10 @@ using namespace isostat;
 namespace {
 
 struct Options {
-  std::string law = "friction";
+  std::string law = "friction", isa;
   int copies = 1, threads = 1;
   std::int64_t steps = 0;
-  bool rebuild = false;
+  bool rebuild = false, shell = false;
   std::vector<std::string> files;
 };
 
@@ -66,6 +68,26 @@ SpherePacking tiled(const SpherePacking& p, int copies) {
   return out;
 }
 
+// Those that touch the shell are pressed into it a little, as by a weight.
+SpherePacking in_shell(const SpherePacking& p) {
+  SpherePacking out;
+  SphereWall shell;
+  shell.shape = WallShape::shell, shell.group = 0;
+  shell.radius = 0.5 * *std::min_element(p.cell->length.c.begin(), p.cell->length.c.end());
+  shell.point = 0.5 * p.cell->length;
+  out.walls = {shell};
+  for (std::size_t k = 0; k < p.bodies.size(); ++k) {
+    const Vec3 r = p.cell->wrap(p.bodies.position[k]);
+    if (norm(r - shell.point) + 0.5 * p.bodies.radius[k] > shell.radius) continue;
+    const std::size_t n = out.bodies.size();
+    out.bodies.resize(n + 1);
+    out.bodies.id[n] = static_cast<std::int64_t>(n) + 1;
+    out.bodies.position[n] = r, out.bodies.radius[n] = p.bodies.radius[k];
+  }
+  out.walls[0].radius *= 1.02;
+  return out;
+}
+
 State<Spheres> begun(SpherePacking packing, const Options& o) {
   State<Spheres> s;
   SphereLawScene law;
@@ -81,7 +103,7 @@ State<Spheres> begun(SpherePacking packing, const Options& o) {
   }
   // k_N at an overlap of 1e-3 diameters of the smallest grain is some .06 E R.
   s.time_step = 0.1 * std::sqrt(lightest / (0.06 * law.modulus));
-  s.cell_motion.reference_length = packing.cell->length;
+  if (packing.cell) s.cell_motion.reference_length = packing.cell->length;
   s.packing = std::move(packing);
   return s;
 }
@@ -108,6 +130,11 @@ void measure(const std::string& file, const State<Spheres>& settled, Isa isa, co
     std::printf(",%.2f", (solver.times().seconds[k] - before.seconds[k]) / n / static_cast<double>(steps) * 1e9);
   std::printf(",%zu,%zu\n", solver.engine().lists().inner_rebuilds() - inner,
               solver.engine().lists().outer_rebuilds() - outer);
+  if (o.shell) {
+    State<Spheres> end = settled;
+    solver.snapshot(end);
+    std::printf("# contacts of pairs %zu, at the wall %zu\n", end.packing.links.size(), end.packing.wall_links.size());
+  }
   std::fflush(stdout);
 }
 
@@ -126,6 +153,10 @@ int main(int count, char** words) {
       o.threads = std::stoi(value());
     else if (word == "--steps")
       o.steps = std::stoll(value());
+    else if (word == "--isa")
+      o.isa = value();
+    else if (word == "--shell")
+      o.shell = true;
     else if (word == "--rebuild")
       o.rebuild = true;
     else
@@ -135,12 +166,13 @@ int main(int count, char** words) {
       "packing,law,isa,grains,threads,mega_grain_steps_per_cpu_s,pairs_per_grain,motion_ns,neighbours_ns,"
       "forces_ns,stress_ns,inner_rebuilds,outer_rebuilds\n");
   for (const std::string& file : o.files) {
-    State<Spheres> s = begun(tiled(read_grains(file), o.copies), o);
+    SpherePacking grains = tiled(read_grains(file), o.copies);
+    State<Spheres> s = begun(o.shell ? in_shell(grains) : std::move(grains), o);
     Solver settle(s, CellControl<3>{}, {});
     settle.set_drag(2 / (100 * s.time_step));
     settle.run(500);
     settle.snapshot(s);
     for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512})
-      if (isa <= best_isa()) measure(file, s, isa, o);
+      if (isa <= best_isa() && (o.isa.empty() || o.isa == name(isa))) measure(file, s, isa, o);
   }
 }

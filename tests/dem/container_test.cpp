@@ -347,11 +347,7 @@ TEST(ContainerOfDisks, RefusesWhatDisksCannotDo) {
   };
   EXPECT_EQ(refused(scene), "");
   Scene bad = scene;
-  bad.container.walls = ContainerWalls::smooth;
-  EXPECT_EQ(refused(bad), "container.walls ");
-  bad = scene, bad.output.energies = true;
-  EXPECT_EQ(refused(bad), "output.energies ");
-  bad = scene, bad.finish.method = Finish::newton;
+  bad.finish.method = Finish::newton;
   EXPECT_EQ(refused(bad), "finish.method ");
   bad = scene, bad.law.normal_stiffness = 60;  // enough for a grain alone, not for those at the bottom
   EXPECT_EQ(refused(bad), "law.normal_stiffness ");

@@ -72,6 +72,23 @@ TEST(StateFile, FilesOfFormat3AreRead) {
   EXPECT_EQ(files, 7);
 }
 
+// Of disks in a hopper and of triangles between smooth walls.
+TEST(StateFile, FilesOfFormat4AreRead) {
+  const std::string folder = std::string(ISOSTAT_DATA) + "/../tests/golden/format4/";
+  const auto again = [&](const char* name) {
+    const StateFile file = read_state_file(folder + name);
+    EXPECT_EQ(decode_state(encode_state(file.state, file.provenance), "memory").hash, file.hash);
+    return file.state;
+  };
+  const AnyState hopper = again("disks-hopper.h5"), box = again("triangles-box.h5");
+  const auto& disks = std::get<State<Disks>>(hopper);
+  EXPECT_TRUE(disks.surroundings.open);
+  EXPECT_FALSE(disks.memory.wall_position.empty());
+  EXPECT_TRUE(disks.packing.feet.empty());
+  EXPECT_EQ(disks.ledger.wall_work, 0);
+  EXPECT_FALSE(std::get<State<TriangleGrains>>(box).packing.overlaps.empty());
+}
+
 TEST(StateFile, SameStateSameBytesOnDisk) {
   const TemporaryFolder folder;
   const State<Disks> state = random_state(3, 50, 90);
@@ -114,8 +131,8 @@ TEST(StateFile, OtherFilesAreBadInput) {
   EXPECT_THAT(message_of([&] { read_state<Disks>(folder / "text.h5"); }), HasSubstr("not a state file"));
   EXPECT_FALSE(is_state_file(folder / "text.h5") || is_state_file(folder / "none.h5") || is_state_file("/tmp"));
   std::string later = encode_state(random_state(1, 2, 1));
-  later.replace(later.find("version 4"), 9, "version 5");
-  EXPECT_THAT(message_of([&] { decode_state(later, "later.h5"); }), HasSubstr("format_version = 5"));
+  later.replace(later.find("version 5"), 9, "version 6");
+  EXPECT_THAT(message_of([&] { decode_state(later, "later.h5"); }), HasSubstr("format_version = 6"));
 }
 
 // The image after changes by the HDF5 library itself, sealed anew: what only the inner checks can find.

@@ -27,7 +27,7 @@ BEGIN {
   room["geometry"] = 1; room["dem"] = 2; room["analysis"] = 3; room["apps"] = 4
   layer["dem/scene"] = 1; layer["dem/state"] = 2; layer["dem/solver"] = 3; layer["dem/run"] = 4; layer["dem/files"] = 4
   layer["dem/sample"] = 4
-  marching = "^dem/(solver/(solver|neighbours|team|barostat)|run/(stage|stages|observers)[a-z_]*\\.|disks/(kernel/|engine|bodies_store|motion|pairs)|triangles/(kernel/|engine|store|motion))"
+  marching = "^dem/(solver/(solver|neighbours|team|barostat)|run/(stage|stages|observers)[a-z_]*\\.|disks/(kernel/|engine|bodies_store|motion|pairs)|triangles/(kernel/|engine|store|motion)|spheres/(kernel/|engine|sphere_store|motion|pairs|walls))"
   system_folder = "^dem/(disks|triangles|spheres)/"
   shared_folder = "^dem/(scene|state|solver|run|files|sample)/"
   foreign = "^(CGAL|boost)/|^(suitesparse/)?(cholmod|umfpack|SuiteSparse|amd|metis)[^/]*\\.h|^gsl/|^(hdf5|H5)|^cairo|^fftw3|^toml"

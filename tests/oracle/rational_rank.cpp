@@ -86,6 +86,54 @@ std::int64_t rational_rank(const Packing<2>& p, NetworkLaw law, bool cell_free) 
   return rank_by_elimination(std::move(rows));
 }
 
+std::int64_t rational_rank(const Packing<3>& p, NetworkLaw law, bool cell_free) {
+  std::vector<Row> rows;
+  const bool friction = law != NetworkLaw::frictionless;
+  const std::size_t per_body = friction ? 6 : 3, strain = per_body * p.bodies.size();
+  for (const Link<3>& l : p.links) {
+    const auto i = static_cast<std::size_t>(l.i), j = static_cast<std::size_t>(l.j);
+    mpq_class d[3];
+    for (int k = 0; k < 3; ++k) {
+      d[k] = mpq_class(p.bodies.position[j][k]) - mpq_class(p.bodies.position[i][k]);
+      if (p.cell) d[k] += mpq_class(p.cell->length[k]) * l.shift[static_cast<std::size_t>(k)];
+    }
+    const mpq_class ri(p.bodies.radius[i]), rj(p.bodies.radius[j]);
+    const bool sticks = friction && (l.kind == LinkKind::closed || l.kind == LinkKind::rolling_yielded);
+    const bool rolls = law == NetworkLaw::rolling && (l.kind == LinkKind::closed || l.kind == LinkKind::sliding);
+    if (!sticks) {
+      Row row;
+      for (std::size_t k = 0; k < 3; ++k) {
+        row[per_body * j + k] += d[k], row[per_body * i + k] -= d[k];
+        if (cell_free) row[strain + k] -= d[k] * d[k];
+      }
+      rows.push_back(row);
+    }
+    // v_j - w_j x l_j n - v_i - w_i x l_i n, l n = R r / (R_i + R_j); (w x d)_k = w_a d_b - w_b d_a for k, a, b cyclic.
+    for (std::size_t k = 0; sticks && k < 3; ++k) {
+      const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
+      Row row;
+      row[per_body * j + k] += 1, row[per_body * i + k] -= 1;
+      if (cell_free) row[strain + k] -= d[k];
+      for (const auto& [body, lever] : {std::pair{i, mpq_class(ri / (ri + rj))}, {j, mpq_class(rj / (ri + rj))}}) {
+        row[per_body * body + 3 + a] -= lever * d[b];
+        row[per_body * body + 3 + b] += lever * d[a];
+      }
+      rows.push_back(row);
+    }
+    for (std::size_t k = 3; rolls && k < 6; ++k) {
+      Row row;
+      row[per_body * j + k] += 1, row[per_body * i + k] -= 1;
+      rows.push_back(row);
+    }
+  }
+  if (!p.part.empty())
+    for (Row& row : rows)
+      std::erase_if(row, [&](const auto& entry) {
+        return entry.first < strain && p.part[entry.first / per_body] != GrainPart::free;
+      });
+  return rank_by_elimination(std::move(rows));
+}
+
 namespace {
 
 using oracle::RationalPoint;

@@ -11,6 +11,10 @@ namespace isostat {
 
 std::int64_t rational_rank(const Packing<2>& packing, NetworkLaw law, bool cell_free);
 
+// The same for spheres: the velocity at the contact point of a contact with friction, the normal one of other links,
+// the relative angular velocity where rolling is resisted.
+std::int64_t rational_rank(const Packing<3>& packing, NetworkLaw law, bool cell_free);
+
 // The same for grains of triangles, none held: overlaps are looked for among all pairs and images, and a pair of grains
 // has one row for all of them. With friction it has a second one, at the mean of the pairs' points weighted by areas;
 // the point of a pair is the mean of its sides weighted by the parts of their edges that they are.

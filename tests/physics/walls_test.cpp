@@ -26,7 +26,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Cohesionless; m g = 1 and T0 = sqrt(a / g).
-State<Disks> settled(int grains, double width, double friction, std::uint64_t seed) {
+State<Disks> settled(int grains, double width, double friction, std::uint64_t seed,
+                     ContainerWalls walls = ContainerWalls::grains) {
   Scene scene;
   scene.grains.count = grains;
   scene.grains.solid_fraction = 0.4;
@@ -38,7 +39,7 @@ State<Disks> settled(int grains, double width, double friction, std::uint64_t se
   scene.step.fraction = 0.1;
   scene.gravity = 1;
   scene.container.shape = ContainerShape::box;
-  scene.container.wall_size = 0.5;
+  scene.container.wall_size = 0.5, scene.container.walls = walls;
   scene.container.width = width, scene.container.height = 12;
   scene.finish.method = Finish::drag, scene.finish.quiet_time = 5;
   scene.stages.resize(1);
@@ -77,8 +78,11 @@ TEST(PutFreeFirst, KeepsTheOrderAndTheLinks) {
   EXPECT_EQ(LinkNetwork(p).free, 2);
 }
 
-TEST(BedOfDisks, IsAnalysedAsTheSolverSeesIt) {
-  const State<Disks> s = settled(40, 8, 0.5, 3);
+class BedOfDisks : public ::testing::TestWithParam<ContainerWalls> {};
+INSTANTIATE_TEST_SUITE_P(Walls, BedOfDisks, ::testing::Values(ContainerWalls::grains, ContainerWalls::smooth));
+
+TEST_P(BedOfDisks, IsAnalysedAsTheSolverSeesIt) {
+  const State<Disks> s = settled(40, 8, 0.5, 3, GetParam());
   const AnalysisInput input = input_of(s);
   const Json report = analyze(input, {}, {});
 
@@ -125,8 +129,8 @@ TEST(BedOfDisks, IsAnalysedAsTheSolverSeesIt) {
 }
 
 // G^T f of the free grains is what the contacts carry: minus the weights.
-TEST(BedOfDisks, ItsForcesBalanceTheWeightsInG) {
-  const State<Disks> s = settled(30, 6, 0.5, 5);
+TEST_P(BedOfDisks, ItsForcesBalanceTheWeightsInG) {
+  const State<Disks> s = settled(30, 6, 0.5, 5, GetParam());
   const AnalysisInput input = input_of(s);
   const LinkNetwork network = input.network();
   const RigidityMatrix g = rigidity_matrix(network, NetworkLaw::rolling, false);
@@ -142,8 +146,9 @@ TEST(BedOfDisks, ItsForcesBalanceTheWeightsInG) {
 // Under every law the rank is the one of elimination over the rationals, from the packing in the solver's order.
 TEST(FewDisksInABox, HaveTheRankOfTheRationals) {
   for (const double friction : {0.0, 0.5}) {
-    for (const std::uint64_t seed : {1u, 2u, 3u}) {
-      const State<Disks> s = settled(6, 3.3, friction, seed);
+    for (const std::uint64_t seed : {1u, 2u, 3u, 4u, 5u}) {
+      const auto walls = seed < 4 ? ContainerWalls::grains : ContainerWalls::smooth;
+      const State<Disks> s = settled(6, 3.3, friction, seed, walls);
       Packing<2> p = s.packing;
       for (std::size_t k = 0; k < p.links.size(); ++k)  // other kinds, too
         if (k % 4 == 3) p.links[k].kind = k % 8 == 3 ? LinkKind::sliding : LinkKind::both_yielded;

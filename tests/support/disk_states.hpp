@@ -18,6 +18,9 @@ struct RandomDisks {
   double step_fraction = 0.06;
   LawScene law;
   std::uint64_t seed = 1;
+  double gravity = 0;
+  ContainerScene container;  // in place of the cell; nothing is squeezed then
+  ContainerMotionScene motion;
 };
 
 // A law soft enough for violent random states, with every axis on and a long attraction.
@@ -39,15 +42,22 @@ inline State<Disks> random_state(const RandomDisks& r) {
   scene.cell.aspect = r.aspect;
   scene.law = r.law;
   scene.step.fraction = r.step_fraction;
+  scene.gravity = r.gravity;
+  scene.container = r.container;
+  scene.stages.resize(1);
+  scene.stages[0].container = r.motion;
   State<Disks> s = initial_disks(scene, r.seed);
   Random random(r.seed + 1000);
-  for (int a = 0; a < 2; ++a) s.packing.cell->length[a] *= r.squeeze;
+  const bool contained = r.container.shape != ContainerShape::none;
+  s.progress.started = contained;
+  if (!contained)
+    for (int a = 0; a < 2; ++a) s.packing.cell->length[a] *= r.squeeze;
   for (std::size_t k = 0; k < s.packing.bodies.size(); ++k) {
-    s.packing.bodies.position[k] = r.squeeze * s.packing.bodies.position[k];
+    if (!contained) s.packing.bodies.position[k] = r.squeeze * s.packing.bodies.position[k];
     s.packing.bodies.velocity[k] = {{r.speed * random.normal(), r.speed * random.normal()}};
     s.packing.bodies.spin[k] = r.spin * random.normal();
   }
-  s.cell_motion.reference_length = s.packing.cell->length;
+  if (!contained) s.cell_motion.reference_length = s.packing.cell->length;
   return s;
 }
 

@@ -39,10 +39,23 @@ template <>
 struct Fixture<Disks> {
   static constexpr bool kLedger = true;  // energies can be watched
 
-  // Every law that a kernel exists for, in a fixed cell, in one that is compressed fast, and without a cell.
+  // Between smooth walls: of a box that is shaken, of a drum that turns.
+  static Variant<Disks> walled(const std::string& name, oracle::RandomDisks r, ContainerShape shape) {
+    const double size = std::sqrt(r.count);
+    r.container.shape = shape, r.container.walls = ContainerWalls::smooth;
+    r.container.width = 0.96 * size, r.container.height = 1.3 * size, r.container.radius = 0.6 * size;
+    if (shape == ContainerShape::drum)
+      r.motion.rotation = 0.5;
+    else
+      r.motion.vibration_amplitude = 0.02, r.motion.vibration_frequency = 3;
+    return {name, random_state(r), {}};
+  }
+
+  // Every law that a kernel exists for, in a fixed cell, in one that is compressed fast, without a cell and between
+  // smooth walls.
   static std::vector<Variant<Disks>> variants(int count) {
     std::vector<Variant<Disks>> list;
-    for (const char* around : {"fixed cell", "free cell", "no cell"})
+    for (const char* around : {"fixed cell", "free cell", "no cell", "smooth box", "smooth drum"})
       for (const bool adhesion : {false, true})
         for (const char* axes : {"frictionless", "friction", "rolling", "undamped rolling"}) {
           const std::string law(axes), room(around);
@@ -52,7 +65,12 @@ struct Fixture<Disks> {
           if (law.starts_with("undamped")) r.law.damping = 0;
           if (law == "frictionless") r.law.friction = 0;
           r.law.rolling = law.ends_with("rolling");
-          Variant<Disks> v{law + (adhesion ? ", adhesion, " : ", ") + room, random_state(r), {}};
+          const std::string name = law + (adhesion ? ", adhesion, " : ", ") + room;
+          if (room.starts_with("smooth")) {
+            list.push_back(walled(name, r, room == "smooth box" ? ContainerShape::box : ContainerShape::drum));
+            continue;
+          }
+          Variant<Disks> v{name, random_state(r), {}};
           if (room == "free cell") {
             v.control.stress = isotropic<2>(100), v.control.max_strain_rate = 2;
             v.control.inertia = 0.3 * oracle::total_mass(v.state);
@@ -71,10 +89,12 @@ struct Fixture<Disks> {
   }
   static int chunks(const State<Disks>& s) { return DiskEngine::Lists::chunk_count(s.packing.bodies.size()); }
   // Something of all that the variant is there for has happened.
-  static bool is_lively(const Variant<Disks>&, const State<Disks>& end) { return !end.packing.links.empty(); }
+  static bool is_lively(const Variant<Disks>& v, const State<Disks>& end) {
+    return !end.packing.links.empty() && (closed(v.state) || !end.packing.feet.empty());
+  }
   static unsigned least_rebuilds(const State<Disks>&) { return 6; }  // of the inner lists, in 150 steps
   // No force from outside.
-  static bool closed(const State<Disks>&) { return true; }
+  static bool closed(const State<Disks>& s) { return s.scene.container.shape == ContainerShape::none; }
 
   // Turned about the origin by an angle; springs and spins of the plane turn with the bodies.
   static State<Disks> turned(State<Disks> s, double angle) {

@@ -101,6 +101,7 @@ TYPED_TEST(EverySystem, LoadsItsBodiesByItsLinks) {
     std::fill(s.packing.bodies.spin.begin(), s.packing.bodies.spin.end(), Spin<TypeParam::dimension>{});
     stand_still(s);
     s.memory = {}, s.cell_motion.strain_rate = {};
+    s.progress.started = false;              // the container rests
     Solver<TypeParam> solver(s, v.control);  // evaluates the forces of the state as it stands
     solver.snapshot(s);
     const auto loads = Fixture<TypeParam>::loads(s);

@@ -81,7 +81,7 @@ PairForceTally pair_forces(const PairForceInput& input) {
     PairDifference<V> d = load_differences<!kTurns>(in.rows, in.pairs.i + k, in.pairs.j + k, V());
     add_late();
     if constexpr (kImages)
-      for (std::size_t a = 0; a < 3; ++a) d.r[a] += look_up(in.offset[a].data(), in.pairs.shift + k, V());
+      for (std::size_t a = 0; a < 3; ++a) d.r[a] = d.r[a] + look_up(in.offset[a].data(), in.pairs.shift + k, V());
     if constexpr (kStress)
       for (std::size_t a = 0; a < 3; ++a) {
         d.velocity[a] = mul_add<V>(V(in.flow_now[a]), d.r[a], d.velocity[a]);
@@ -95,7 +95,7 @@ PairForceTally pair_forces(const PairForceInput& input) {
     const law::Repulsion<V> elastic = Law::Normal::force(stiffness, overlap);
 
     V normal = elastic.repulsion, damping(0.0), receding(0.0);
-    if constexpr (Law::Adhesion::acts) normal += Law::Adhesion::force(law, f.gap);
+    if constexpr (Law::Adhesion::acts) normal = normal + Law::Adhesion::force(law, f.gap);
     if constexpr (Law::Damping::acts) {
       receding = dot_3d<V>(f.n, d.velocity);
       damping = load<V>(in.pairs.damping + k) * Law::Normal::damping_root(elastic.root);
@@ -136,7 +136,7 @@ PairForceTally pair_forces(const PairForceInput& input) {
         }
         const Real3<V> across = cross_3d<V>(f.n, tangential);
         for (std::size_t a = 0; a < 3; ++a) {
-          force[a] += tangential[a];
+          force[a] = force[a] + tangential[a];
           late_arm[a] = -(f.lever_ratio * across[a]);
         }
       }

@@ -1,5 +1,7 @@
 // Rows of spheres to lanes and back for four pairs (row.hpp).
 #pragma once
+#include "dem/spheres/kernel/row.hpp"
+#if defined(__AVX2__) && !defined(__AVX512F__)
 #include <immintrin.h>
 
 namespace isostat::spheres {
@@ -81,3 +83,4 @@ ISOSTAT_INLINE void add_moments(double* moments, const RowOffset* i, const RowOf
 }
 
 }  // namespace isostat::spheres
+#endif

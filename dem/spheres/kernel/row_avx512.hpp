@@ -1,5 +1,7 @@
 // Rows of spheres to lanes and back for eight pairs (row.hpp).
 #pragma once
+#include "dem/spheres/kernel/row.hpp"
+#if defined(__AVX512F__)
 #include <immintrin.h>
 
 namespace isostat::spheres {
@@ -121,3 +123,4 @@ ISOSTAT_INLINE void add_moments(double* moments, const RowOffset* i, const RowOf
 }
 
 }  // namespace isostat::spheres
+#endif

@@ -15,32 +15,8 @@
 namespace isostat {
 namespace {
 
-const Vec3 kApproach{{0, 0, -1}}, kAxis{{0, 1, 0}}, kSlip{{-1, 0, 0}};  // slip = axis x approach
-constexpr std::int32_t kFirst = 0, kSecond = 1;                         // groups
-constexpr std::uint64_t kSecondStream = std::uint64_t{1} << 32;         // of the second packing of a seed
+constexpr Vec3 kAxis{{0, 1, 0}}, kSlip{{-1, 0, 0}};  // of a rotation: slip = axis x approach
 constexpr double kHeavy = 1e24;  // times the mass of a solid sphere that stands in for a soft one: no force moves it
-
-void add_particle(SpherePacking& p, const InsertedGrains<3>& grains, const Vec3& centre, std::int32_t group) {
-  Bodies<3>& b = p.bodies;
-  const std::size_t before = b.size();
-  b.resize(before + grains.radius.size());
-  p.group.resize(b.size(), group);
-  for (std::size_t k = before; k < b.size(); ++k) {
-    b.id[k] = static_cast<std::int64_t>(k);
-    b.position[k] = centre + grains.position[k - before];
-    b.radius[k] = grains.radius[k - before];
-  }
-  SphereWall shell;
-  shell.shape = WallShape::shell, shell.point = centre, shell.radius = grains.enclosure.shell_radius;
-  shell.group = group;
-  p.walls.push_back(shell);
-}
-
-SphereWall partner_wall(double shell_radius) {
-  SphereWall wall;
-  wall.point = shell_radius * kApproach, wall.normal = -1.0 * kApproach;
-  return wall;
-}
 
 class Experiment {
  public:
@@ -57,7 +33,7 @@ class Experiment {
       relax();
       delta = next;
       const Vec3 force = force_on_partner();
-      result_.normal.push_back({delta, dot(force, kApproach), fire_residual(*solver_), largest_overlap()});
+      result_.normal.push_back({delta, dot(force, kSoftApproach), fire_residual(*solver_), largest_overlap()});
       if (test_.alpha.empty()) continue;
       const State<Spheres> pressed = snapshot();
       rotated(delta, 0);
@@ -81,19 +57,20 @@ class Experiment {
     if (test_.partner == SoftPartner::none) {
       p.bodies.resize(1);
       p.bodies.radius[0] = radius_;
-      p.group = {kFirst};
+      p.group = {kFirstSoft};
     } else {
       const InsertedGrains<3> grains = insert_grains<3>(test_.insertion, seed);
       const InsertionReport report = insertion_report(grains, test_.insertion);
       result_.grains = report.grains;
       result_.solid_fraction = report.solid_fraction;
       result_.exponent = report.exponent.value;
-      add_particle(p, grains, {}, kFirst);
+      add_soft_particle(p, grains, {}, kFirstSoft);
     }
     if (test_.partner == SoftPartner::soft)
-      add_particle(p, insert_grains<3>(test_.insertion, seed + kSecondStream), (2 * radius_) * kApproach, kSecond);
+      add_soft_particle(p, insert_grains<3>(test_.insertion, seed + kSecondStream), (2 * radius_) * kSoftApproach,
+                        kSecondSoft);
     else
-      p.walls.push_back(partner_wall(radius_));
+      p.walls.push_back(soft_partner_wall(radius_));
     set_sphere_inertia(p.bodies, test_.density);
     if (test_.partner == SoftPartner::none) p.bodies.mass[0] *= kHeavy, p.bodies.inertia[0] *= kHeavy;
     s.time_step = test_.relaxation.step * time_step_unit(test_);
@@ -104,10 +81,10 @@ class Experiment {
   void approach(double distance) {
     const double dt = state_.time_step;
     const auto steps = static_cast<std::int64_t>(std::ceil(distance / (test_.relaxation.speed * dt)));
-    const Vec3 velocity = (distance / (static_cast<double>(steps) * dt)) * kApproach;
-    solver_->engine().boost(kFirst, velocity);
+    const Vec3 velocity = (distance / (static_cast<double>(steps) * dt)) * kSoftApproach;
+    solver_->engine().boost(kFirstSoft, velocity);
     solver_->run(steps);
-    solver_->engine().boost(kFirst, -1.0 * velocity);
+    solver_->engine().boost(kFirstSoft, -1.0 * velocity);
   }
 
   // The first particle rigidly about its centre, little by little.
@@ -116,7 +93,7 @@ class Experiment {
     const auto steps = static_cast<std::int64_t>(std::ceil(std::abs(angle) * radius_ / (test_.relaxation.speed * dt)));
     const Vec3 centre = solver_->engine().walls().front().point;
     for (std::int64_t k = 0; k < steps; ++k) {
-      solver_->engine().rotate(kFirst, kAxis, angle / static_cast<double>(steps), centre);
+      solver_->engine().rotate(kFirstSoft, kAxis, angle / static_cast<double>(steps), centre);
       solver_->step();
     }
   }
@@ -137,12 +114,12 @@ class Experiment {
 
   void rotated(double delta, double alpha) {
     const Vec3 force = force_on_partner();
-    result_.tangential.push_back({delta, alpha, dot(force, kApproach), dot(force, kSlip), dot(force, kAxis)});
+    result_.tangential.push_back({delta, alpha, dot(force, kSoftApproach), dot(force, kSlip), dot(force, kAxis)});
   }
 
   Vec3 force_on_partner() const {
     const SphereEngine& e = solver_->engine();
-    return test_.partner == SoftPartner::soft ? e.force_between(kFirst, kSecond)
+    return test_.partner == SoftPartner::soft ? e.force_between(kFirstSoft, kSecondSoft)
                                               : e.force_on_wall(e.walls().size() - 1);
   }
 

@@ -366,5 +366,34 @@ TEST(PictureOfAContainer, IsMeasuredByItsGrains) {
   EXPECT_GT(extent_of(p).diameter, 1);
 }
 
+// Smooth walls are lines around the grains; upright ones are cut where they lead away.
+TEST(PictureOfAContainer, HasLinesForSmoothWalls) {
+  Packing<2> p;
+  p.bodies.resize(2);
+  p.bodies.id = {0, 1};
+  p.bodies.position = {{{0, 0.5}}, {{0, 0}}};
+  p.bodies.radius = {0.5, 0};
+  p.part = {GrainPart::free, GrainPart::wall};
+  p.feet.resize(1);
+  ContainerScene box;
+  box.shape = ContainerShape::box, box.walls = ContainerWalls::smooth, box.width = 6, box.height = 50;
+  const std::vector<SmoothWall> walls = smooth_walls(box, 0);
+  ASSERT_EQ(walls.size(), 3u);
+  const Extent extent = with_walls(extent_of(p), walls);
+  EXPECT_LT(extent.low[0], -3);
+  EXPECT_GT(extent.high[0], 3);
+  EXPECT_LT(extent.low[1], 0);
+  EXPECT_LT(extent.high[1], 3);
+  EXPECT_TRUE(extent.cut);
+  std::vector<std::unique_ptr<PictureSubject>> subjects;
+  subjects.push_back(std::make_unique<DiskSubject>(p, grains_content(), walls));
+  const PictureSeries series(std::move(subjects), {});
+  const auto canvas = make_svg_canvas(series.page());
+  series.draw_packing(*canvas, 0);
+  const std::string svg = canvas->finish();
+  EXPECT_NE(svg.find("id=\"walls\""), std::string::npos);
+  EXPECT_FALSE(with_walls(extent_of(p), {}).cut);
+}
+
 }  // namespace
 }  // namespace isostat

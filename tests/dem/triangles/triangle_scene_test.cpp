@@ -141,7 +141,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{kTriangles + "[[stage]]\nuntil = \"separated\"\n", "stage.0.until", "only of a collision"},
         Case{"[[stage]]\nuntil = \"separated\"\n", "stage.0.until", "only of a collision"},
         Case{kCollision + "[container]\nshape = \"box\"\n" + kTime, "grains.arrangement", "free space"},
-        Case{kCollision + kTime + "pressure = 1\n", "stage.0.pressure", "two squares collide in free space"}));
+        Case{kCollision + kTime + "pressure = 1\n", "stage.0.pressure", "two grains collide in free space"}));
 
 TEST(TriangleScene, TheOutletMayHaveBeenOpenedByAStageBefore) {
   EXPECT_TRUE(faults_of(kHopper + kTime + "open = true\n[[stage]]\nuntil = \"empty\"\n").empty());
