@@ -184,9 +184,11 @@ def waves(out, results):
     peak at a positive lag, structure that sinks with the grains at a negative one."""
     groups = {}
     for run, series in runs_of(os.path.join(out, "hopper-waves")):
-        time, _ = scale(run["row"] == "disks", A_HOPPER)
+        time, _ = scale(run["row"] != "squares", A_HOPPER)
         t, above = [x * time for x in series["t"]], series["grains_above"]
         flowing = [k for k in range(len(t)) if 0.5 * above[0] <= above[k] <= 0.95 * above[0]]
+        if len(flowing) < 50:  # clogged
+            continue
         step = (t[flowing[-1]] - t[flowing[0]]) / (len(flowing) - 1)
         slices = [[series[f"Phi_{n:02}"][k] for k in flowing] for n in range(2, 7)]
         slices = [without_mean(s, round(0.03 / step)) for s in slices]
@@ -201,7 +203,7 @@ def waves(out, results):
         rows.append({"row": f"{grains}{lag:g}", "grains": grains, "lag": lag, "runs": len(values), "n": len(values),
                      "correlation": mean, "correlation_se": error})
     write(os.path.join(results, "granular_waves.csv"), list(rows[0]), rows)
-    for grains in ("squares", "disks"):
+    for grains in ("squares", "frictionless-disks", "disks"):
         for r in sorted((r for r in rows if r["grains"] == grains), key=lambda r: -r["correlation"])[:3]:
             print(f"waves {grains}: {text(r['correlation'])} +- {text(r['correlation_se'])} at {r['lag']} s")
 
