@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "dem/disks/disks.hpp"
-#include "dem/files/state_columns.hpp"
+#include "dem/files/round_layout.hpp"
 
 namespace isostat {
 
@@ -14,18 +14,8 @@ template <class Io>
 void transfer_packing(Io& io, Packing<2>& packing) {
   auto& [cell, bodies, links, beams, part, feet] = packing;
   static_cast<void>(beams);  // refused by state_fault(): no run has them yet
-  auto& [id, position, velocity, spin, radius, mass, inertia] = bodies;
-  const std::string grains = "/particles/grains";
-  const std::size_t n = io.count(grains + "/id", id.size());
-  io.box(grains + "/box", cell);
-  io.array(grains + "/id", id, n, "");
-  io.element(grains + "/position", position, n, "a");
-  io.element(grains + "/velocity", velocity, n, "a T0-1");
-  io.element(grains + "/spin", spin, n, "T0-1");
-  io.array(grains + "/radius", radius, n, "a");
-  io.array(grains + "/mass", mass, n, "m");
-  io.array(grains + "/inertia", inertia, n, "m a+2");
-  if (io.since(4)) transfer_codes(io, grains + "/part", part, io.count(grains + "/part", part.size()));
+  transfer_round_bodies(io, cell, bodies);
+  if (io.since(4)) transfer_codes(io, kGrainsGroup + "/part", part, io.count(kGrainsGroup + "/part", part.size()));
   if (io.since(5)) {
     const auto foot_members = [](Foot& foot) {
       auto& [wall, turning] = foot;
@@ -33,38 +23,15 @@ void transfer_packing(Io& io, Packing<2>& packing) {
     };
     transfer_rows(io, "/feet", feet, foot_members, {{"wall", ""}, {"turning", "a-1"}});
   }
-
-  const auto members = [](Link<2>& link) {
-    auto& [i, j, shift, kind, beam, gap, normal_force, tangential_force, moment] = link;
-    static_cast<void>(beam);
-    return std::tie(i, j, shift, tangential_force, moment, kind, gap, normal_force);
-  };
-  transfer_rows(io, "/links", links, members,
-                {{"i", ""},
-                 {"j", ""},
-                 {"shift", ""},
-                 {"tangential_force", "F0"},
-                 {"moment", "F0 a"},
-                 {"kind", ""},
-                 {"gap", "a"},
-                 {"normal_force", "F0"}});
+  transfer_round_links(io, links);
 }
 
 template <class Io>
 void transfer_memory(Io& io, DiskMemory& memory) {
   auto& [half_velocity, half_spin, force, torque, pairs, lists, wall_position] = memory;
-  transfer_memory_array(io, "half_velocity", half_velocity, "a T0-1");
-  transfer_memory_array(io, "half_spin", half_spin, "T0-1");
-  transfer_memory_array(io, "force", force, "F0");
-  transfer_memory_array(io, "torque", torque, "F0 a");
+  transfer_half_steps(io, half_velocity, half_spin, force, torque);
   if (io.since(4)) transfer_memory_array(io, "wall_position", wall_position, "a");
-  const auto members = [](PairMemory<DiskHistory>& pair) {
-    auto& [i, j, shift, history] = pair;
-    auto& [tangential_force, moment] = history;
-    return std::tie(i, j, shift, tangential_force, moment);
-  };
-  transfer_rows(io, "/solver/pairs", pairs, members,
-                {{"i", ""}, {"j", ""}, {"shift", ""}, {"tangential_force", "F0"}, {"moment", "F0 a"}});
+  transfer_springs(io, pairs);
   transfer_lists(io, lists, "a");
 }
 

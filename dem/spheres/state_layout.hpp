@@ -3,7 +3,7 @@
 #include <string>
 #include <tuple>
 
-#include "dem/files/state_columns.hpp"
+#include "dem/files/round_layout.hpp"
 #include "dem/spheres/spheres.hpp"
 
 namespace isostat {
@@ -16,33 +16,9 @@ void transfer_packing(Io& io, SpherePacking& packing) {
                 "a new member needs its place here");
   auto& [cell, bodies, links, beams, part, feet] = static_cast<Packing<3>&>(packing);
   static_cast<void>(beams), static_cast<void>(part), static_cast<void>(feet);  // refused by state_fault(): of the plane
-  auto& [id, position, velocity, spin, radius, mass, inertia] = bodies;
-  const std::string grains = "/particles/grains";
-  const std::size_t n = io.count(grains + "/id", id.size());
-  io.box(grains + "/box", cell);
-  io.array(grains + "/id", id, n, "");
-  io.element(grains + "/position", position, n, "a");
-  io.element(grains + "/velocity", velocity, n, "a T0-1");
-  io.element(grains + "/spin", spin, n, "T0-1");
-  io.array(grains + "/radius", radius, n, "a");
-  io.array(grains + "/mass", mass, n, "m");
-  io.array(grains + "/inertia", inertia, n, "m a+2");
-  io.array(grains + "/group", packing.group, io.count(grains + "/group", packing.group.size()), "");
-
-  const auto members = [](Link<3>& link) {
-    auto& [i, j, shift, kind, beam, gap, normal_force, tangential_force, moment] = link;
-    static_cast<void>(beam);
-    return std::tie(i, j, shift, tangential_force, moment, kind, gap, normal_force);
-  };
-  transfer_rows(io, "/links", links, members,
-                {{"i", ""},
-                 {"j", ""},
-                 {"shift", ""},
-                 {"tangential_force", "F0"},
-                 {"moment", "F0 a"},
-                 {"kind", ""},
-                 {"gap", "a"},
-                 {"normal_force", "F0"}});
+  transfer_round_bodies(io, cell, bodies);
+  io.array(kGrainsGroup + "/group", packing.group, io.count(kGrainsGroup + "/group", packing.group.size()), "");
+  transfer_round_links(io, links);
   const auto wall_members = [](SphereWall& wall) {
     auto& [shape, point, normal, wall_radius, wall_velocity, wall_group] = wall;
     return std::tie(shape, point, normal, wall_radius, wall_velocity, wall_group);
@@ -62,17 +38,8 @@ void transfer_packing(Io& io, SpherePacking& packing) {
 template <class Io>
 void transfer_memory(Io& io, SphereMemory& memory) {
   auto& [half_velocity, half_spin, force, torque, pairs, wall_springs, lists] = memory;
-  transfer_memory_array(io, "half_velocity", half_velocity, "a T0-1");
-  transfer_memory_array(io, "half_spin", half_spin, "T0-1");
-  transfer_memory_array(io, "force", force, "F0");
-  transfer_memory_array(io, "torque", torque, "F0 a");
-  const auto members = [](PairMemory<SphereHistory, 3>& pair) {
-    auto& [i, j, shift, history] = pair;
-    auto& [tangential_force, moment] = history;
-    return std::tie(i, j, shift, tangential_force, moment);
-  };
-  transfer_rows(io, "/solver/pairs", pairs, members,
-                {{"i", ""}, {"j", ""}, {"shift", ""}, {"tangential_force", "F0"}, {"moment", "F0 a"}});
+  transfer_half_steps(io, half_velocity, half_spin, force, torque);
+  transfer_springs(io, pairs);
   const auto wall_members = [](WallSpring& spring) {
     auto& [body, wall, tangential_force] = spring;
     return std::tie(body, wall, tangential_force);
