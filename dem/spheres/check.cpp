@@ -72,10 +72,9 @@ void check_stiffness(const Scene& scene, std::vector<SceneConflict>& found) {
 
 void check_step(const Scene& scene, std::vector<SceneConflict>& found) {
   const SphereGrainsScene& g = scene.sphere_grains;
-  SphereLaw law = resolve(scene.sphere_law);
-  for (const StageScene& s : scene.stages) law.friction = std::max(law.friction, s.friction.value_or(0));
-  if (law.friction > 0 && law.normal == NormalForce::linear)
-    law.tangential_stiffness = scene.sphere_law.tangential_stiffness.value_or(law.normal_stiffness);
+  SphereLawScene stiffest = scene.sphere_law;
+  for (const StageScene& s : scene.stages) stiffest.friction = std::max(stiffest.friction, s.friction.value_or(0));
+  const SphereLaw law = resolve(stiffest);
   const double bound = critical_fraction(law, g.file.empty() ? g.diameter_min / 2 : 0.5, g.density);
   if (scene.step.fraction >= bound)
     found.push_back({"step.fraction",

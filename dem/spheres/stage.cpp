@@ -6,7 +6,6 @@
 #include "dem/spheres/sample.hpp"
 
 namespace isostat {
-
 namespace {
 
 // The first soft-particle goes on with its grains and shell at the speed of the stage.
@@ -29,11 +28,9 @@ void set_approach(State<Spheres>& s, double speed) {
 void prepare_stage(State<Spheres>& s, const StageScene& stage) {
   set_approach(s, stage.approach);
   if (!stage.friction) return;
-  s.law.friction = s.law.wall_friction = *stage.friction;
-  if (*stage.friction > 0) {
-    const SphereLaw asked = resolve(s.scene.sphere_law);
-    s.law.tangential_stiffness = asked.tangential_stiffness;
-  }
+  SphereLawScene law = s.scene.sphere_law;
+  law.friction = *stage.friction;
+  s.law = resolve(law);
 }
 
 void agitate(State<Spheres>& s, const StageScene& stage) {
