@@ -14,6 +14,7 @@
 #include "dem/files/packing_file.hpp"
 #include "dem/files/state_file.hpp"
 #include "dem/input_error.hpp"
+#include "dem/spheres/vtp.hpp"
 #include "dem/triangles/network_file.hpp"
 #include "dem/triangles/state_check.hpp"
 #include "dem/triangles/vtp.hpp"
@@ -98,6 +99,10 @@ int convert_command(int argc, char** argv) {
     return exit_done;
   }
   const State<Disks>& state = file.state;
+  if (file.spheres && output.ends_with(".vtp")) {
+    write_files_atomically({{output, vtk_polydata(file.spheres->packing, file.spheres->time)}});
+    return exit_done;
+  }
   if (file.spheres) {
     write_files_atomically(files_of(*file.packing_3d, output, file.spheres->step, file.spheres->time));
     return exit_done;

@@ -1,5 +1,6 @@
 // isostat draw: from the options to a picture of a packing, or pictures of several.
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -44,21 +45,39 @@ bool is_film(const Arguments& arguments, const std::string& path) {
   return film;
 }
 
+enum class Drawn { disks, spheres, triangles };
+constexpr std::array<std::string_view, 3> kDrawnNames{"disks", "spheres", "triangles"};
+
+Drawn system_of(const AnalysisInput& input) {
+  return input.packing_3d ? Drawn::spheres : input.triangles ? Drawn::triangles : Drawn::disks;
+}
+
 // Of one system.
 std::vector<AnalysisInput> load_all(const std::vector<std::string>& paths) {
   std::vector<AnalysisInput> inputs;
+  const auto name = [](const AnalysisInput& of) {
+    return std::string(kDrawnNames[static_cast<std::size_t>(system_of(of))]);
+  };
   for (const std::string& path : paths) {
     inputs.push_back(load_input(path, {}));
     AnalysisInput& input = inputs.back();
-    const auto system = [](const AnalysisInput& of) { return of.triangles ? "triangles" : "disks"; };
-    if (input.triangles.has_value() != inputs[0].triangles.has_value())
-      throw InputError(path, 0, "", "",
-                       std::string("is of ") + system(input) + ", " + paths[0] + " of " + system(inputs[0]) +
-                           ": one picture shows one system");
+    if (system_of(input) != system_of(inputs[0]))
+      throw InputError(
+          path, 0, "", "",
+          "is of " + name(input) + ", " + paths[0] + " of " + name(inputs[0]) + ": one picture shows one system");
     input.state.memory = {};  // of no use here, and a series may be long
     if (input.triangles) input.triangles->memory = {};
   }
   return inputs;
+}
+
+Drawing drawing_of(const Arguments& arguments, const std::vector<AnalysisInput>& inputs) {
+  const Drawn system = system_of(inputs[0]);
+  if (system == Drawn::spheres) return drawing_of_spheres(arguments, inputs);
+  for (const char* option : {"--view", "--slice"})
+    if (const auto value = arguments.value(option))
+      throw InputError(inputs[0].path, 0, option, *value, "is about packings in space; this one is in the plane");
+  return system == Drawn::triangles ? drawing_of_triangles(arguments, inputs) : drawing_of_disks(arguments, inputs);
 }
 
 }  // namespace
@@ -90,6 +109,9 @@ int draw_command(int argc, char** argv) {
        {"--threshold", "F", "links whose total force is below F are blue, disks touched only by such light grey"},
        {"--width", "MEASURE", "line width by normal or total force; default: normal, with --threshold total"},
        {"--mode", "N", "which vibration mode, from the lowest above the zero modes; default 1"},
+       {"--view", "DIRECTION",
+        "spheres: from where, x, y, z or AZIMUTH,ELEVATION in degrees, 0,0 from x, 0,90 from above; default -60,20"},
+       {"--slice", "AXIS=POSITION", "spheres: a plane section, as in z=0.5, drawn as disks"},
        {"--fps", "N", "the inputs one after the other as a film that plays, N frames a second; default 10"},
        {"--stroboscopic", "", "all inputs in one picture, the earlier the paler"}},
       {"INPUT... -o FILE",
@@ -109,7 +131,7 @@ int draw_command(int argc, char** argv) {
     picture_file.emplace(path);
 
   const std::vector<AnalysisInput> inputs = load_all(arguments.inputs());
-  Drawing drawing = inputs[0].triangles ? drawing_of_triangles(arguments, inputs) : drawing_of_disks(arguments, inputs);
+  Drawing drawing = drawing_of(arguments, inputs);
   if (!film) drawing.captions.clear();
   const PictureSeries series(std::move(drawing.subjects), drawing.length_unit, std::move(drawing.captions));
   if (film) {

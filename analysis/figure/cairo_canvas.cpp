@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "analysis/figure/ball_shading.hpp"
 #include "analysis/figure/canvas.hpp"
 
 namespace isostat {
@@ -84,6 +85,19 @@ class CairoCanvas final : public Canvas {
       cairo_arc(cr_, d.center[0], d.center[1], d.radius, 0, 2 * std::numbers::pi);
       cairo_close_path(cr_);
     });
+  }
+
+  void balls(std::span<const DiskMark> marks, const Color& c) override {
+    for (const DiskMark& d : marks) {
+      const Vec2 spot = d.center + d.radius * kBallSpot;
+      cairo_pattern_t* shading = cairo_pattern_create_radial(spot[0], spot[1], 0, d.center[0], d.center[1], d.radius);
+      for (const BallShade& s : ball_shades(c))
+        cairo_pattern_add_color_stop_rgb(shading, s.offset, s.color.red, s.color.green, s.color.blue);
+      cairo_set_source(cr_, shading);
+      cairo_pattern_destroy(shading);
+      cairo_arc(cr_, d.center[0], d.center[1], d.radius, 0, 2 * std::numbers::pi);
+      cairo_fill(cr_);
+    }
   }
 
   void segments(std::span<const SegmentMark> marks, const Color& c) override {

@@ -61,6 +61,7 @@ class Canvas {
   virtual void clip(const Rect& rect) = 0;  // until unclip; clips do not nest
   virtual void unclip() = 0;
   virtual void disks(std::span<const DiskMark> marks, const Paint& paint) = 0;
+  virtual void balls(std::span<const DiskMark> marks, const Color& color) = 0;  // shaded spheres, ball_shading.hpp
   virtual void segments(std::span<const SegmentMark> marks, const Color& color) = 0;
   virtual void polyline(std::span<const Vec2> points, const Stroke& stroke) = 0;
   virtual void polygons(std::span<const Polygon> marks, const Paint& paint) = 0;

@@ -14,6 +14,7 @@ class FadingCanvas final : public Canvas {
   void clip(const Rect& rect) override { on_.clip(rect); }
   void unclip() override { on_.unclip(); }
   void disks(std::span<const DiskMark> marks, const Paint& p) override { on_.disks(marks, pale(p)); }
+  void balls(std::span<const DiskMark> marks, const Color& c) override { on_.balls(marks, pale(c)); }
   void segments(std::span<const SegmentMark> marks, const Color& c) override { on_.segments(marks, pale(c)); }
   void polyline(std::span<const Vec2> points, const Stroke& s) override { on_.polyline(points, pale(s)); }
   void polygons(std::span<const Polygon> marks, const Paint& p) override { on_.polygons(marks, pale(p)); }

@@ -20,10 +20,13 @@ enum class LinkColor {
   tensile,      // green, N < 0
   distant       // blue: not in contact; with a threshold instead: |F| below it
 };
-LinkColor link_color(const Link<2>& link, const ForceConvention& convention);
+template <int D>
+LinkColor link_color(const Link<D>& link, const ForceConvention& convention);
 
-double total_force(const Link<2>& link);
-double drawn_force(const Link<2>& link, const ForceConvention& convention);  // what the width shows
+template <int D>
+double total_force(const Link<D>& link);
+template <int D>
+double drawn_force(const Link<D>& link, const ForceConvention& convention);  // what the width shows
 
 enum class DiskShade {
   plain,
@@ -31,7 +34,8 @@ enum class DiskShade {
   unstressed  // with a threshold: no link of the disk reaches it
 };
 // One a body. `rattler` has one entry a body, or none at all.
-std::vector<DiskShade> disk_shades(const Packing<2>& packing, const ForceConvention& convention,
+template <int D>
+std::vector<DiskShade> disk_shades(const Packing<D>& packing, const ForceConvention& convention,
                                    const std::vector<bool>& rattler);
 
 }  // namespace isostat

@@ -46,6 +46,15 @@ LegendItem disk_item(double em, const Paint& paint, RichText label) {
           std::move(label)};
 }
 
+LegendItem ball_item(double em, const Color& color, RichText label) {
+  return {em,
+          [=](Canvas& canvas, const Vec2& p) {
+            const DiskMark mark{p + Vec2{{em / 2, 0}}, em / 2};
+            canvas.balls({&mark, 1}, color);
+          },
+          std::move(label)};
+}
+
 LegendItem length_scale_item(double length, RichText label) {
   return {length,
           [=](Canvas& canvas, const Vec2& p) {

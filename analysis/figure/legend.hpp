@@ -17,6 +17,7 @@ struct LegendItem {
 LegendItem line_item(double em, const Color& color, RichText label);
 LegendItem force_scale_item(double thickness, double em, RichText label);  // a bar as thick as a link of that force
 LegendItem disk_item(double em, const Paint& paint, RichText label);
+LegendItem ball_item(double em, const Color& color, RichText label);
 LegendItem length_scale_item(double length, RichText label);  // |---|
 LegendItem text_item(RichText label);
 LegendItem color_bar_item(double em, std::function<Color(double)> map, RichText low, RichText high);

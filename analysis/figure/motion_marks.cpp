@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "analysis/figure/nice_numbers.hpp"
 
@@ -64,10 +65,20 @@ std::vector<Paint> MotionMarks::paints(const Stroke& outline) const {
 }
 
 void MotionMarks::draw_arrows(Canvas& canvas, const FramePen& pen, const std::vector<Vec2>& places) const {
+  std::vector<std::size_t> all(options_.velocity.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  canvas.begin_group("velocities");
+  canvas.polygons(arrows(pen, places, all), {kInk, std::nullopt});
+  canvas.end_group();
+}
+
+std::vector<Polygon> MotionMarks::arrows(const FramePen& pen, const std::vector<Vec2>& places,
+                                         std::span<const std::size_t> grains) const {
   const PictureFrame& frame = pen.frame();
   const double shaft = std::clamp(0.08 * pen.diameter(), 0.3, 2.5), reach = 3 * shaft / frame.scale();
   std::vector<Polygon> marks;
-  for (std::size_t i = 0; scale_.unit > 0 && i < options_.velocity.size(); ++i) {
+  if (!(scale_.unit > 0)) return marks;
+  for (const std::size_t i : grains) {
     const Vec2 d = frame.mean_diameter() / scale_.unit * options_.velocity[i];
     const Vec2 on_page{{frame.scale() * d[0], -frame.scale() * d[1]}};
     if (norm(on_page) < kShortest) continue;
@@ -77,9 +88,7 @@ void MotionMarks::draw_arrows(Canvas& canvas, const FramePen& pen, const std::ve
     frame.for_visible_images(
         low, high, [&](const Vec2& offset) { marks.push_back(arrow(frame.page(from + offset), on_page, shaft)); });
   }
-  canvas.begin_group("velocities");
-  canvas.polygons(marks, {kInk, std::nullopt});
-  canvas.end_group();
+  return marks;
 }
 
 std::vector<LegendItem> MotionMarks::legend(const FramePen& pen, double em) const {

@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "analysis/figure/legend.hpp"
@@ -40,6 +41,9 @@ class MotionMarks {
   std::vector<Paint> paints(const Stroke& outline) const;  // shades of spin
   // Group "velocities": an arrow from each place, one a velocity.
   void draw_arrows(Canvas& canvas, const FramePen& pen, const std::vector<Vec2>& from) const;
+  // Of those grains alone; in any image that shows.
+  std::vector<Polygon> arrows(const FramePen& pen, const std::vector<Vec2>& from,
+                              std::span<const std::size_t> grains) const;
   std::vector<LegendItem> legend(const FramePen& pen, double em) const;
 
  private:

@@ -36,8 +36,10 @@ struct ForceOptions {
   ForceConvention convention;
   double scale = 1;                    // F1 = max(F0, a P)
   double width_at_scale = kWidthAtF0;  // [a] line width of a force F1; kWidthAtAP where F1 = a P
+  double diameter = 0;                 // [length] a; 0: of the largest grain of the picture
   RichText scale_label;                // its name; empty: written as a number
   std::vector<bool> rattler;           // one a body, or none
+  std::vector<DiskShade> shade{};      // one a body; none: by links and rattlers
 };
 std::unique_ptr<PictureContent> forces_content(ForceOptions options);
 

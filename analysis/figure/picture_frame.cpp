@@ -6,9 +6,9 @@
 namespace isostat {
 namespace {
 
-constexpr double kDiameterOnPage = 15;                      // [pt] aim for the mean diameter
-constexpr double kSmallestEdge = 280, kLargestEdge = 1400;  // [pt] bounds for the longer edge of the window
-constexpr double kMargin = 0.1;                             // [mean diameter] around an isolated packing
+constexpr double kDiameterOnPage = 15;  // [pt] aim for the mean diameter
+constexpr double kLargestEdge = 1400;   // [pt] bound for the longer edge of the window
+constexpr double kMargin = 0.1;         // [mean diameter] around an isolated packing
 
 }  // namespace
 
@@ -53,7 +53,7 @@ PictureFrame::PictureFrame(const Extent& own, const Extent& whole)
   size_ = cell_ ? own.high - own.low : room;
   inset_ = 0.5 * (room - size_);
   const double longer = std::max(room[0], room[1]);
-  scale_ = std::clamp(kDiameterOnPage / mean_diameter_ * longer, kSmallestEdge, kLargestEdge) / longer;
+  scale_ = std::clamp(kDiameterOnPage / mean_diameter_ * longer, whole.smallest_edge, kLargestEdge) / longer;
 }
 
 }  // namespace isostat

@@ -14,6 +14,7 @@ struct Extent {
   Vec2 low{}, high{};                   // corners of the window
   double diameter = 0;                  // mean of the grains
   bool cut = false;                     // what stands out of the window is cut off; a cell always cuts
+  double smallest_edge = 280;           // [pt] bound for the longer edge of the window
 };
 
 // `margin` is left around an isolated packing, beside a narrow one of its own. Throws std::invalid_argument for a

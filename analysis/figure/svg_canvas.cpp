@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "analysis/figure/ball_shading.hpp"
+
 namespace isostat {
 namespace {
 
@@ -93,10 +95,31 @@ void SvgCanvas::clip(const Rect& r) {
 void SvgCanvas::disks(std::span<const DiskMark> marks, const Paint& paint) {
   if (marks.empty()) return;
   out_ += "<g" + paint_attributes(paint) + ">\n";
+  circles(marks);
+  out_ += "</g>\n";
+}
+
+// One gradient a colour, in units of each circle's box.
+void SvgCanvas::balls(std::span<const DiskMark> marks, const Color& color) {
+  if (marks.empty()) return;
+  const auto [gradient, is_new] = gradients_.try_emplace(hex(color), static_cast<int>(gradients_.size()) + 1);
+  const std::string id = "ball" + std::to_string(gradient->second);
+  if (is_new) {
+    out_ += "<radialGradient id=\"" + id + "\" fx=\"" + number(0.5 + 0.5 * kBallSpot[0]) + "\" fy=\"" +
+            number(0.5 + 0.5 * kBallSpot[1]) + "\">";
+    for (const BallShade& s : ball_shades(color))
+      out_ += "<stop offset=\"" + number(s.offset) + "\" stop-color=\"" + hex(s.color) + "\"/>";
+    out_ += "</radialGradient>\n";
+  }
+  out_ += "<g fill=\"url(#" + id + ")\">\n";
+  circles(marks);
+  out_ += "</g>\n";
+}
+
+void SvgCanvas::circles(std::span<const DiskMark> marks) {
   for (const DiskMark& d : marks)
     out_ += "<circle cx=\"" + number(d.center[0], decimals_) + "\" cy=\"" + number(d.center[1], decimals_) + "\" r=\"" +
             number(d.radius, decimals_ + 1) + "\"/>\n";
-  out_ += "</g>\n";
 }
 
 // One path for a run of equal widths; each link is one sub-path "M x,y l dx,dy".

@@ -17,6 +17,7 @@ class SvgCanvas : public Canvas {
   void clip(const Rect& rect) override;
   void unclip() override { out_ += "</g>\n"; }
   void disks(std::span<const DiskMark> marks, const Paint& paint) override;
+  void balls(std::span<const DiskMark> marks, const Color& color) override;
   void segments(std::span<const SegmentMark> marks, const Color& color) override;
   void polyline(std::span<const Vec2> points, const Stroke& stroke) override;
   void polygons(std::span<const Polygon> marks, const Paint& paint) override;
@@ -34,10 +35,12 @@ class SvgCanvas : public Canvas {
  private:
   std::string place(const Vec2& p) const;  // "12.5,7.25"
   static std::string box(const Rect& rect);
+  void circles(std::span<const DiskMark> marks);
 
   std::string out_, last_id_;
   int decimals_, clips_ = 0;
   std::map<std::string, int, std::less<>> groups_;  // how often each name was given
+  std::map<std::string, int> gradients_;            // of balls, by colour
 };
 
 }  // namespace isostat

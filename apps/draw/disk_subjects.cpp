@@ -153,8 +153,6 @@ RichText caption(const AnalysisInput& input) {
 Drawing drawing_of_disks(const Arguments& arguments, const std::vector<AnalysisInput>& inputs) {
   std::vector<ForceReading> readings;
   for (const AnalysisInput& input : inputs) {
-    if (input.packing_3d)
-      throw InputError(input.path, 0, "", "", "is a packing in 3D; draw shows packings in the plane");
     if (input.packing().bodies.size() == 0) throw InputError(input.path, 0, "", "", "has no grains to draw");
     if (input.has_law() != inputs[0].has_law())
       throw InputError(input.path, 0, "", "",

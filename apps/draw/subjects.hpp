@@ -20,6 +20,7 @@ struct Drawing {
 // Keeps references to the packings, which are of one system. Throws InputError for an input in which there is nothing
 // to draw, or not what is asked for.
 Drawing drawing_of_disks(const Arguments& arguments, const std::vector<AnalysisInput>& inputs);
+Drawing drawing_of_spheres(const Arguments& arguments, const std::vector<AnalysisInput>& inputs);
 Drawing drawing_of_triangles(const Arguments& arguments, const std::vector<AnalysisInput>& inputs);
 
 // --what, or its default. Throws InputError for options that are not about it.

@@ -44,8 +44,8 @@ Packing<2> pair_at(double gap, const DiskLaw& law) {
 
 TEST(Certificate, EachDirectionHasItsOwnStress) {
   EXPECT_EQ(force_scale(cohesive_law(), {std::nullopt, -3.0}), 3);
-  EXPECT_EQ(largest_stress<2>({0.5, -2.0}), -2.0);
-  EXPECT_FALSE(largest_stress<2>({}));
+  EXPECT_EQ(largest_stress(ImposedStress<2>{0.5, -2.0}), -2.0);
+  EXPECT_FALSE(largest_stress(ImposedStress<2>{}));
 }
 
 TEST(Equilibrium, StickingPairAtZeroForceIsBalanced) {

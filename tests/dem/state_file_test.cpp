@@ -237,7 +237,7 @@ TEST(StateFile, EveryInnerFaultIsNamed) {
        [](hid_t f) { overwrite<std::int32_t>(f, "/solver/pairs/i", H5T_NATIVE_INT32, 1, 99); }},
       {"/@system: is missing", [](hid_t f) { H5Adelete(f, "system"); }},
       {"/particles/triangles/id: is missing", [](hid_t f) { set_text(f, "system", "triangles"); }},
-      {"/@system = squares: this isostat knows disks and triangles", [](hid_t f) { set_text(f, "system", "squares"); }},
+      {"/@system = squares: this isostat knows disks, triangles and spheres", [](hid_t f) { set_text(f, "system", "squares"); }},
       {"/surroundings@open: is missing", [](hid_t f) { H5Adelete_by_name(f, "/surroundings", "open", H5P_DEFAULT); }},
       {"format_version = 7",
        [](hid_t f) { set_attribute<std::int64_t>(f, "/", "format_version", H5T_NATIVE_INT64, 7); }},

@@ -18,6 +18,10 @@ class RecordingCanvas final : public Canvas {
     DiskMark mark;
     Paint paint;
   };
+  struct Ball : Context {
+    DiskMark mark;
+    Color color;
+  };
   struct Segment : Context {
     SegmentMark mark;
     Color color;
@@ -46,6 +50,7 @@ class RecordingCanvas final : public Canvas {
   };
 
   std::vector<Disk> drawn_disks;
+  std::vector<Ball> drawn_balls;
   std::vector<Segment> drawn_segments;
   std::vector<Line> lines;
   std::vector<Area> areas;
@@ -67,6 +72,9 @@ class RecordingCanvas final : public Canvas {
   }
   void disks(std::span<const DiskMark> marks, const Paint& paint) override {
     for (const DiskMark& m : marks) drawn_disks.push_back({context(), m, paint});
+  }
+  void balls(std::span<const DiskMark> marks, const Color& color) override {
+    for (const DiskMark& m : marks) drawn_balls.push_back({context(), m, color});
   }
   void segments(std::span<const SegmentMark> marks, const Color& color) override {
     for (const SegmentMark& m : marks) drawn_segments.push_back({context(), m, color});

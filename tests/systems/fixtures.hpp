@@ -263,12 +263,19 @@ struct Fixture<Spheres> {
     r.room = 0.5;
     Variant<Spheres> v{oracle::words(law) + ", " + room, random_state(r), {}};
     v.state.scene.system = SceneSystem::spheres;
+    if (room == "no cell") gather(v.state.packing.bodies);
     if (room == "free cell") {
       v.control.stress = isotropic<3>(100), v.control.max_strain_rate = 2;
       v.control.inertia = 0.3 * oracle::total_mass(v.state);
     }
     if (room == "walls") enclose(v.state.packing);
     return v;
+  }
+  // Towards their middle, or they have parted before the run ends.
+  static void gather(Bodies<3>& b) {
+    Vec3 middle{};
+    for (const Vec3& r : b.position) middle += (1 / static_cast<double>(b.size())) * r;
+    for (std::size_t k = 0; k < b.size(); ++k) b.velocity[k] -= 4.0 * (b.position[k] - middle);
   }
   // A shell around half of them, and a plane that closes on all.
   static void enclose(SpherePacking& p) {

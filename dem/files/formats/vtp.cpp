@@ -25,7 +25,10 @@ struct Points {
   std::vector<double> position, radius, mass, velocity, spin;
   std::vector<std::int64_t> id;
   std::vector<std::int8_t> image;
-  void add(const Bodies<D>& b, std::size_t k, const Vec<D>& place, bool is_image) {
+  std::vector<std::int32_t> group;
+  void add(const Bodies<D>& b, std::size_t k, const Vec<D>& place, std::int8_t is_image,
+           const std::vector<std::int32_t>& groups) {
+    if (!groups.empty()) group.push_back(groups[k]);
     push(position, spatial(place)), push(velocity, spatial(b.velocity[k])), push(spin, spatial(b.spin[k]));
     radius.push_back(b.radius[k]), mass.push_back(b.mass[k]), id.push_back(b.id[k]);
     image.push_back(is_image);
@@ -47,7 +50,7 @@ struct Cells {
 }  // namespace
 
 template <int D>
-std::string vtk_polydata(const Packing<D>& packing, double time) {
+std::string vtk_polydata(const Packing<D>& packing, double time, const VtkExtras<D>& extras) {
   const Bodies<D>& b = packing.bodies;
   Points<D> points;
   Cells<D> cells;
@@ -55,7 +58,7 @@ std::string vtk_polydata(const Packing<D>& packing, double time) {
   std::vector<std::int64_t> vertices, vertex_ends, lines, line_ends;
   for (std::size_t k = 0; k < b.size(); ++k) {
     place[k] = packing.cell ? packing.cell->wrap(b.position[k]) : b.position[k];
-    points.add(b, k, place[k], false);
+    points.add(b, k, place[k], 0, extras.group);
     cells.add(-1, Link<D>{});
     vertices.push_back(static_cast<std::int64_t>(k));
     vertex_ends.push_back(static_cast<std::int64_t>(k) + 1);
@@ -70,22 +73,31 @@ std::string vtk_polydata(const Packing<D>& packing, double time) {
     lines.push_back(static_cast<std::int64_t>(i));
     lines.push_back(static_cast<std::int64_t>(inside ? j : points.id.size()));
     line_ends.push_back(static_cast<std::int64_t>(lines.size()));
-    if (!inside) points.add(b, j, end, true);
+    if (!inside) points.add(b, j, end, 1, extras.group);
     cells.add(static_cast<std::int8_t>(l.kind), l);
+  }
+  for (const auto& [link, reach] : extras.feet) {
+    const auto i = static_cast<std::size_t>(link.i);
+    lines.push_back(static_cast<std::int64_t>(i));
+    lines.push_back(static_cast<std::int64_t>(points.id.size()));
+    line_ends.push_back(static_cast<std::int64_t>(lines.size()));
+    points.add(b, i, place[i] + reach, 2, extras.group);
+    cells.add(static_cast<std::int8_t>(link.kind), link);
   }
 
   VtkAppended data;
   const std::string head = data.polydata_head(time);
   const std::string counts = "<Piece NumberOfPoints=\"" + std::to_string(points.id.size()) + "\" NumberOfVerts=\"" +
-                             std::to_string(b.size()) + "\" NumberOfLines=\"" + std::to_string(packing.links.size()) +
+                             std::to_string(b.size()) + "\" NumberOfLines=\"" + std::to_string(line_ends.size()) +
                              "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n";
   constexpr int vector_size = D == 2 ? 1 : 3;
   const std::string xml =
       head + counts + "<PointData Scalars=\"radius\" Vectors=\"velocity\">\n" + data.array("id", points.id) +
       data.array("radius", points.radius) + data.array("mass", points.mass) +
       data.array("velocity", points.velocity, 3) + data.array("spin", points.spin, 3) +
-      data.array("image", points.image) + "</PointData>\n<CellData Scalars=\"N\">\n" + data.array("kind", cells.kind) +
-      data.array("gap", cells.gap) + data.array("N", cells.normal) + data.array("T", cells.tangential, vector_size) +
+      data.array("image", points.image) + (extras.group.empty() ? std::string() : data.array("group", points.group)) +
+      "</PointData>\n<CellData Scalars=\"N\">\n" + data.array("kind", cells.kind) + data.array("gap", cells.gap) +
+      data.array("N", cells.normal) + data.array("T", cells.tangential, vector_size) +
       data.array("M", cells.moment, vector_size) + data.array("F", cells.total) + "</CellData>\n<Points>\n" +
       data.array("Points", points.position, 3) + "</Points>\n<Verts>\n" + data.array("connectivity", vertices) +
       data.array("offsets", vertex_ends) + "</Verts>\n<Lines>\n" + data.array("connectivity", lines) +
@@ -93,7 +105,7 @@ std::string vtk_polydata(const Packing<D>& packing, double time) {
   return xml + data.polydata_tail();
 }
 
-template std::string vtk_polydata(const Packing<2>&, double);
-template std::string vtk_polydata(const Packing<3>&, double);
+template std::string vtk_polydata(const Packing<2>&, double, const VtkExtras<2>&);
+template std::string vtk_polydata(const Packing<3>&, double, const VtkExtras<3>&);
 
 }  // namespace isostat
