@@ -23,6 +23,14 @@ Plot plot_of(const Arguments& arguments, const std::string& path, const std::str
   return study_plot(parse_table(read_whole_file(path), path), *x, *y);
 }
 
+// Charts against the deformation alone have only positive numbers.
+void make_logarithmic(Plot& plot) {
+  const RichText title = plot.charts[0].x.title;
+  std::erase_if(plot.charts, [&](const Chart& c) { return c.x.title != title; });
+  for (Chart& c : plot.charts) c.x.log = c.y.log = true;
+  plot.share_x = true;
+}
+
 }  // namespace
 
 int plot_command(int argc, char** argv) {
@@ -32,6 +40,7 @@ int plot_command(int argc, char** argv) {
        {"--what", "PLOT",
         "force-histogram, angle, NT, coordination, scattering, pores, series, law-fit, bench or study; default: the "
         "only one that the file has data for"},
+       {"--log", "", "law-fit: logarithmic axes, of the forces against the deformation alone"},
        {"--x", "COLUMN", "study.csv: what to plot against; a name's end is enough (friction)"},
        {"--y", "COLUMN", "study.csv: what to plot, with its standard error"}},
       {"RESULT.json|TABLE.csv -o FILE",
@@ -43,6 +52,10 @@ int plot_command(int argc, char** argv) {
                                .value_or("");
   const FigureFile file(arguments.required("-o"));
   Plot plot = plot_of(arguments, arguments.inputs()[0], what);
+  if (arguments.has("--log")) {
+    if (what != "law-fit") throw InputError("command line", 0, "--log", "", "only with --what law-fit");
+    make_logarithmic(plot);
+  }
   const ChartFigure figure(std::move(plot.charts), plot.share_x);
   const auto canvas = file.canvas(figure.size());
   figure.draw(*canvas);

@@ -73,6 +73,49 @@ std::array<double, 3> start_at(const Data& d, double b) {
   return {std::log(a > 0 ? a : top / std::pow(d.x.back(), b)), b, a > 0 ? c : 0.0};
 }
 
+// y fitted by a (x^b - delta^b) above delta: the best a for a given b, and what is left.
+struct Slope {
+  double a = 0, chi2 = std::numeric_limits<double>::infinity();
+};
+Slope slope_at(double b, double delta, const Data& d) {
+  double gg = 0, gy = 0, yy = 0;
+  for (std::size_t k = 0; k < d.x.size(); ++k) {
+    const double g = std::max(0.0, std::pow(d.x[k], b) - std::pow(delta, b));
+    gg += g * g, gy += g * d.y[k], yy += d.y[k] * d.y[k];
+  }
+  return {gy / gg, yy - gy * gy / gg};
+}
+
+// Draws of packings with replacement; `fit` makes a law of the numbers drawn.
+template <class Fit>
+SoftLawErrors bootstrap(std::size_t packings, int draws, std::uint64_t seed, Fit fit) {
+  if (packings < 2) return {kNaN, kNaN, kNaN, kNaN};
+  Random random(seed);
+  std::array<double, 4> sum{}, squares{};
+  double n = 0;
+  for (int d = 0; d < draws; ++d) {
+    std::vector<std::size_t> drawn(packings);
+    for (std::size_t& k : drawn) k = static_cast<std::size_t>(random.uniform() * static_cast<double>(packings));
+    const SoftLaw law = fit(drawn);
+    if (!std::isfinite(law.a)) continue;
+    const std::array<double, 4> p{law.a, law.b, law.c, law.delta};
+    for (std::size_t k = 0; k < 4; ++k) sum[k] += p[k], squares[k] += p[k] * p[k];
+    n += 1;
+  }
+  std::array<double, 4> error;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double mean = sum[k] / n;
+    error[k] = n > 1 ? std::sqrt(std::max(0.0, squares[k] / n - mean * mean) * n / (n - 1)) : kNaN;
+  }
+  return {error[0], error[1], error[2], error[3]};
+}
+
+std::vector<double> mean_over(const std::vector<std::vector<double>>& samples, const std::vector<std::size_t>& drawn) {
+  std::vector<std::vector<double>> some;
+  for (const std::size_t k : drawn) some.push_back(samples[k]);
+  return mean_of(some);
+}
+
 }  // namespace
 
 double SoftLaw::operator()(double x) const { return std::max(0.0, a * std::pow(x, b) + c); }
@@ -88,6 +131,31 @@ SoftLaw fit_soft_law(const std::vector<double>& x, const std::vector<double>& y)
   SoftLaw law{std::exp(best.p[0]), best.p[1], best.p[2], 0, 0};
   law.delta = law.c < 0 ? std::pow(-law.c / law.a, 1 / law.b) : 0.0;
   law.rms = std::sqrt(best.chi2 / static_cast<double>(x.size()));
+  return law;
+}
+
+SoftLaw fit_soft_law_from(double delta, const std::vector<double>& x, const std::vector<double>& y) {
+  std::size_t loaded = 0;
+  for (std::size_t k = 0; k < x.size(); ++k) loaded += x[k] > delta && y[k] > 0;
+  if (loaded < 2 || x.size() != y.size()) return {kNaN, kNaN, kNaN, kNaN, kNaN};  // delta may be NaN
+  const Data data{x, y};
+  constexpr double kLeast = 0.05, kMost = 20, kGolden = 0.6180339887498949, kScan = 0.05;
+  double best = kLeast;
+  for (double b = kLeast; b <= kMost; b += kScan)
+    if (slope_at(b, delta, data).chi2 < slope_at(best, delta, data).chi2) best = b;
+  double low = best - kScan, high = best + kScan;
+  for (int k = 0; k < 60; ++k) {
+    const double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
+    if (slope_at(left, delta, data).chi2 < slope_at(right, delta, data).chi2)
+      high = right;
+    else
+      low = left;
+  }
+  SoftLaw law;
+  law.b = (low + high) / 2, law.delta = delta;
+  const Slope slope = slope_at(law.b, delta, data);
+  law.a = slope.a, law.c = -law.a * std::pow(delta, law.b);
+  law.rms = std::sqrt(std::max(0.0, slope.chi2) / static_cast<double>(x.size()));
   return law;
 }
 
@@ -110,26 +178,15 @@ std::vector<double> standard_error_of(const std::vector<std::vector<double>>& sa
 
 SoftLawErrors bootstrap_errors(const std::vector<double>& x, const std::vector<std::vector<double>>& samples, int draws,
                                std::uint64_t seed) {
-  if (samples.size() < 2) return {kNaN, kNaN, kNaN, kNaN};
-  Random random(seed);
-  std::array<double, 4> sum{}, squares{};
-  double n = 0;
-  for (int d = 0; d < draws; ++d) {
-    std::vector<std::vector<double>> drawn;
-    for (std::size_t k = 0; k < samples.size(); ++k)
-      drawn.push_back(samples[static_cast<std::size_t>(random.uniform() * static_cast<double>(samples.size()))]);
-    const SoftLaw law = fit_soft_law(x, mean_of(drawn));
-    if (!std::isfinite(law.a)) continue;
-    const std::array<double, 4> p{law.a, law.b, law.c, law.delta};
-    for (std::size_t k = 0; k < 4; ++k) sum[k] += p[k], squares[k] += p[k] * p[k];
-    n += 1;
-  }
-  std::array<double, 4> error;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const double mean = sum[k] / n;
-    error[k] = n > 1 ? std::sqrt(std::max(0.0, squares[k] / n - mean * mean) * n / (n - 1)) : kNaN;
-  }
-  return {error[0], error[1], error[2], error[3]};
+  return bootstrap(samples.size(), draws, seed,
+                   [&](const auto& drawn) { return fit_soft_law(x, mean_over(samples, drawn)); });
+}
+
+SoftLawErrors bootstrap_errors(const std::vector<double>& x, const std::vector<std::vector<double>>& normal,
+                               const std::vector<std::vector<double>>& tangential, int draws, std::uint64_t seed) {
+  return bootstrap(normal.size(), draws, seed, [&](const auto& drawn) {
+    return fit_soft_law_from(fit_soft_law(x, mean_over(normal, drawn)).delta, x, mean_over(tangential, drawn));
+  });
 }
 
 }  // namespace isostat

@@ -275,7 +275,7 @@ Plot pores_plot(const Json& r, const std::string& path) {
   return {{chart}, false};
 }
 
-// --- law-fit: the measured laws of a soft-particle and Eq. 7 of its paper ---
+// --- law-fit: the measured laws of a soft-particle and Eqs. 7, 8 of its paper (Figs. 3 to 6) ---
 
 bool law_fit_applies(const Json& r) {
   const Json* normal = find(r, {"normal"});
@@ -295,35 +295,89 @@ Curve measured(const Json& list, const char* value, const char* error) {
   return curve;
 }
 
+// max(0, a x^b + c) up to `high`, with its parameters as notes; nothing without a fit.
+void add_fit(Chart& chart, const Json& r, const char* fit, double high, const RichText& quantity, const char* unit) {
+  const auto parameter = [&](const char* key) { return value_of(find(r, {fit, key})).mean; };
+  const auto with_error = [&](const char* key, const char* error) {
+    return number_text_with_error(parameter(key), parameter(error));
+  };
+  const double a = parameter("a"), b = parameter("b"), c = parameter("c"), delta = parameter("delta");
+  if (!std::isfinite(a) || !std::isfinite(b) || !std::isfinite(c)) return;
+  Curve curve;
+  curve.color = curve_color(1);
+  curve.label = quantity + rich(" = `a` Δ^{`b`} + `c`");
+  constexpr int kPoints = 240;
+  for (int p = 0; p <= kPoints; ++p) {
+    const double d = high * p / kPoints;
+    curve.x.push_back(d);
+    curve.y.push_back(std::isfinite(delta) && d < delta ? 0 : a * std::pow(d, b) + c);
+  }
+  chart.curves.push_back(std::move(curve));
+  chart.notes.push_back(rich("`a` = ") + with_error("a", "a_error") + plain(unit) + rich(",  `b` = ") +
+                        with_error("b", "b_error"));
+  if (std::isfinite(delta)) chart.notes.push_back(rich("`δ` = ") + with_error("delta", "delta_error"));
+}
+
+// Hertz's law through its value at the last deformation; nothing without one.
+void add_solid(Chart& chart, const Json& last) {
+  const double force = value_of(find(last, {"solid"})).mean, high = value_of(find(last, {"delta"})).mean;
+  if (!std::isfinite(force)) return;
+  Curve curve;
+  curve.style = CurveStyle::dashed;
+  curve.color = curve_color(2);
+  curve.label = rich("solid, Hertz");
+  constexpr int kPoints = 60;
+  for (int p = 0; p <= kPoints; ++p) {
+    const double part = static_cast<double>(p) / kPoints;
+    curve.x.push_back(part * high), curve.y.push_back(force * std::pow(part, 1.5));
+  }
+  chart.curves.push_back(std::move(curve));
+}
+
+// Forces against the way of the surface, a curve for each deformation.
+Chart turned_chart(const Json& list, const char* value, const char* error, RichText title, double height, bool labels) {
+  Chart chart;
+  chart.x.title = rich("tangential deformation `h`_{t} (mm)");
+  chart.y.title = std::move(title);
+  chart.height = height;
+  std::vector<double> deltas;
+  for (const Json& entry : list) {
+    const double delta = value_of(find(entry, {"delta"})).mean;
+    if (deltas.empty() || deltas.back() != delta) {
+      Curve curve;
+      curve.style = CurveStyle::points;
+      curve.color = curve_color(deltas.size());
+      if (labels) curve.label = rich("Δ_{n} = ") + number_text(delta);
+      chart.curves.push_back(std::move(curve));
+      deltas.push_back(delta);
+    }
+    Curve& curve = chart.curves.back();
+    curve.x.push_back(1e3 * value_of(find(entry, {"h_t"})).mean);
+    curve.y.push_back(value_of(find(entry, {value})).mean);
+    curve.error.push_back(value_of(find(entry, {error})).mean);
+  }
+  return chart;
+}
+
+bool any_finite(const std::vector<double>& values) {
+  return std::any_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+}
+
 Plot law_fit_plot(const Json& r, const std::string& path) {
   if (!law_fit_applies(r)) refuse(path, "normal", "no measured law; run lab soft-particle --json");
   Plot plot{{}, true};
+  const Json &normal = r["normal"], *tangential = find(r, {"tangential"}), *turned = find(r, {"turned"});
+  const bool both = tangential && tangential->is_array() && !tangential->empty();
   Chart chart;
   chart.x.title = rich("normal deformation Δ_{n} = `h`_{n} / `R`_{s}");
   chart.y.title = rich("`F` (N)");
-  chart.curves.push_back(measured(r["normal"], "F", "F_error"));
-  chart.curves[0].label = rich("measured");
-  const auto parameter = [&](const char* key) { return value_of(find(r, {"fit", key})).mean; };
-  const double a = parameter("a"), b = parameter("b"), c = parameter("c"), delta = parameter("delta");
-  if (std::isfinite(a) && std::isfinite(b) && std::isfinite(c)) {
-    Curve fit;  // Eq. 7: zero below delta
-    fit.color = curve_color(1);
-    fit.label = rich("`F` = `a` Δ^{`b`} + `c`");
-    const auto& x = chart.curves[0].x;
-    const double high = *std::max_element(x.begin(), x.end());
-    constexpr int kPoints = 240;
-    for (int p = 0; p <= kPoints; ++p) {
-      const double d = high * p / kPoints;
-      fit.x.push_back(d);
-      fit.y.push_back(std::isfinite(delta) && d < delta ? 0 : a * std::pow(d, b) + c);
-    }
-    chart.curves.push_back(std::move(fit));
-    chart.notes.push_back(rich("`a` = ") + number_text(a) + rich(" N,  `b` = ") + number_text(b));
-    if (std::isfinite(delta)) chart.notes.push_back(rich("`δ` = ") + number_text(delta, 3));
-  }
-  const Json* tangential = find(r, {"tangential"});
-  const bool both = tangential && tangential->is_array() && !tangential->empty();
   chart.height = both ? 210 : 270;
+  chart.curves.push_back(measured(normal, "F", "F_error"));
+  chart.curves[0].label = rich("measured");
+  const auto& x = chart.curves[0].x;
+  const double high = *std::max_element(x.begin(), x.end());
+  add_fit(chart, r, "fit", high, rich("`F`"), " N");
+  add_solid(chart, normal.back());
   plot.charts.push_back(std::move(chart));
   if (both) {
     Chart slope;
@@ -332,9 +386,16 @@ Plot law_fit_plot(const Json& r, const std::string& path) {
     slope.height = 170;
     slope.curves.push_back(measured(*tangential, "k_t", "k_t_error"));
     slope.curves[0].color = curve_color(2);
-    const auto& y = slope.curves[0].y;
-    if (std::any_of(y.begin(), y.end(), [](double v) { return std::isfinite(v); }))
+    if (any_finite(slope.curves[0].y)) {
+      add_fit(slope, r, "tangential_fit", high, rich("`k`_{t}"), " N / degree");
       plot.charts.push_back(std::move(slope));
+    }
+  }
+  if (turned && turned->is_array() && !turned->empty()) {
+    plot.share_x = false;
+    plot.charts.push_back(turned_chart(*turned, "along", "along_error", rich("`F`_{t} along (N)"), 190, true));
+    plot.charts.push_back(
+        turned_chart(*turned, "perpendicular", "perpendicular_error", rich("across (N)"), 110, false));
   }
   return plot;
 }

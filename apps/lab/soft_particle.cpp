@@ -7,6 +7,7 @@
 #include <exception>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string>
 #include <thread>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "dem/files/atomic_file.hpp"
 #include "dem/input_error.hpp"
 #include "dem/sample/insertion_scene.hpp"
+#include "dem/spheres/at_rest.hpp"
 #include "dem/spheres/lab/soft_particle.hpp"
 
 namespace isostat {
@@ -161,13 +163,43 @@ Slopes slopes_of(const SoftMeasurement& m, const std::vector<double>& deltas) {
   return s;
 }
 
-Json fit_json(const std::vector<double>& x, const Samples& samples) {
-  const SoftLaw law = fit_soft_law(x, mean_of(samples));
-  const SoftLawErrors e = bootstrap_errors(x, samples);
+Json fit_json(const SoftLaw& law, const SoftLawErrors& e) {
   return {
       {"a", number(law.a)},     {"b", number(law.b)},     {"c", number(law.c)},     {"delta", number(law.delta)},
       {"a_error", number(e.a)}, {"b_error", number(e.b)}, {"c_error", number(e.c)}, {"delta_error", number(e.delta)},
       {"rms", number(law.rms)}};
+}
+
+// Forces on the partner by deformation and angle, alpha = 0 first.
+Json turned_json(const SoftParticleTest& test, const std::vector<SoftMeasurement>& all) {
+  Json list = Json::array();
+  for (std::size_t k = 0; k < all.front().tangential.size(); ++k) {
+    Samples forces;
+    for (const SoftMeasurement& m : all) {
+      const TangentialPoint& p = m.tangential[k];
+      forces.push_back({p.along, p.perpendicular, p.normal});
+    }
+    const std::vector<double> mean = mean_of(forces), error = standard_error_of(forces);
+    const TangentialPoint& p = all.front().tangential[k];
+    list.push_back({{"delta", p.delta},
+                    {"alpha", p.alpha},
+                    {"h_t", p.alpha * std::numbers::pi / 180 * test.insertion.shell_radius},
+                    {"along", mean[0]},
+                    {"along_error", number(error[0])},
+                    {"perpendicular", mean[1]},
+                    {"perpendicular_error", number(error[1])},
+                    {"normal", mean[2]},
+                    {"normal_error", number(error[2])}});
+  }
+  return list;
+}
+
+// Of solid spheres of radius R_s in place of the soft ones.
+double solid_force(const SoftParticleTest& test, double delta) {
+  const double rs = test.insertion.shell_radius;
+  const ContactStiffness k =
+      test.partner == SoftPartner::soft ? pair_stiffness(test.law, rs, rs) : wall_stiffness(test.law, rs);
+  return repulsion(test.law, k, -delta * rs);
 }
 
 template <class Get>
@@ -184,6 +216,8 @@ Json report(const SoftParticleTest& test, const std::vector<SoftMeasurement>& al
   json["density"] = packed ? mean_json(all, [](const SoftMeasurement& m) { return m.solid_fraction; }) : Json();
   json["grains"] = packed ? mean_json(all, [](const SoftMeasurement& m) { return m.grains; }) : Json(1);
   json["exponent"] = packed ? mean_json(all, [](const SoftMeasurement& m) { return m.exponent; }) : Json();
+  json["with_smaller_steps"] =
+      std::count_if(all.begin(), all.end(), [&](const SoftMeasurement& m) { return m.step < test.relaxation.step; });
   Samples forces, overlaps, residuals;
   for (const SoftMeasurement& m : all) {
     forces.emplace_back(), overlaps.emplace_back(), residuals.emplace_back();
@@ -193,10 +227,12 @@ Json report(const SoftParticleTest& test, const std::vector<SoftMeasurement>& al
   }
   const std::vector<double> mean = mean_of(forces), error = standard_error_of(forces), overlap = mean_of(overlaps),
                             residual = mean_of(residuals);
+  const SoftLaw law = fit_soft_law(test.delta, mean);
   for (std::size_t k = 0; k < test.delta.size(); ++k)
     json["normal"].push_back({{"delta", test.delta[k]},
                               {"F", mean[k]},
                               {"F_error", number(error[k])},
+                              {"solid", solid_force(test, test.delta[k])},
                               {"largest_overlap", overlap[k]},
                               {"residual", residual[k]}});
   if (!test.alpha.empty()) {
@@ -213,9 +249,11 @@ Json report(const SoftParticleTest& test, const std::vector<SoftMeasurement>& al
                                     {"k_t_error", number(k_error[k])},
                                     {"perpendicular", side[k]},
                                     {"prestrain", before[k]}});
-    json["tangential_fit"] = fit_json(test.delta, along);
+    json["tangential_fit"] =
+        fit_json(fit_soft_law_from(law.delta, test.delta, k_t), bootstrap_errors(test.delta, forces, along));
+    json["turned"] = turned_json(test, all);
   }
-  json["fit"] = fit_json(test.delta, forces);
+  json["fit"] = fit_json(law, bootstrap_errors(test.delta, forces));
   return json;
 }
 

@@ -34,6 +34,18 @@ TEST(SoftLawFit, NeedsThreeLoadedPoints) {
   EXPECT_TRUE(std::isnan(bootstrap_errors({0.1, 0.2, 0.3}, {{0.1, 0.2, 0.4}}).a));
 }
 
+// Table 2: the threshold is that of the normal force, only a and b are free.
+TEST(SoftLawFit, GivesBackSlopesFromTheirThreshold) {
+  const SoftLaw law{0.740, 2.1, -0.740 * std::pow(0.065, 2.1), 0.065, 0};
+  const SoftLaw fit = fit_soft_law_from(0.065, kDelta, values(law));
+  EXPECT_NEAR(fit.a, law.a, 1e-6);
+  EXPECT_NEAR(fit.b, law.b, 1e-6);
+  EXPECT_NEAR(fit.c, -0.0024, 5e-5);
+  EXPECT_EQ(fit.delta, 0.065);
+  EXPECT_LT(fit.rms, 1e-8);
+  EXPECT_TRUE(std::isnan(fit_soft_law_from(0.26, kDelta, values(law)).a));
+}
+
 // Packings scatter by a factor of the whole curve: a then has the scatter of the mean, b none.
 TEST(SoftLawFit, BootstrapsOverPackings) {
   const SoftLaw law{70, 2.8, 0, 0, 0};

@@ -63,6 +63,7 @@ struct SoftMeasurement {
   std::size_t grains = 0;     // of one particle
   double solid_fraction = 0;  // volume of its grains over that of the shell
   double exponent = 0;        // of its sizes, maximum likelihood
+  double step = 0;            // [dt1] that was stable
   std::vector<NormalPoint> normal;
   std::vector<TangentialPoint> tangential;  // alpha = 0 first, the state before the rotation
 };
@@ -70,8 +71,9 @@ struct SoftMeasurement {
 // The stable step of the smallest grain, .35 / sqrt(4 k/m), k the stiffness of two of them at an overlap of .3 radii.
 double time_step_unit(const SoftParticleTest& test);
 
-// One packing (two with a soft partner, the other of the next seed's stream). A pure function of test and seed.
-// Throws InputError if the packing cannot be made, RunError if it blows up.
+// One packing (two with a soft partner, the other of the next seed's stream). A pure function of test and seed. Where
+// it blows up it is measured again with smaller steps. Throws InputError if the packing cannot be made, RunError if it
+// blows up with the smallest.
 SoftMeasurement measure_soft_particle(const SoftParticleTest& test, std::uint64_t seed);
 
 }  // namespace isostat

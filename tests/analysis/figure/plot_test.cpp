@@ -165,15 +165,15 @@ TEST(PoresPlot, CountsThePoresThatAreLarger) {
   EXPECT_EQ(curve.y, (std::vector{3.0, 2.0, 2.0, 1.0, 1.0, 0.0}));
 }
 
-// tests/golden/soft-particle.json has what `lab soft-particle --json` is to write: the keys of the contract, undefined
+// tests/golden/soft-particle.json has what `lab soft-particle --json` writes: the keys of the contract, undefined
 // numbers null.
-TEST(LawFitPlot, FollowsEquation7) {
+TEST(LawFitPlot, FollowsTheEquations) {
   const std::string path = ISOSTAT_DATA "/../tests/golden/soft-particle.json";
   const Json result = Json::parse(read_whole_file(path));
   const auto of_its_kind = [&](const JsonPlot& p) { return p.applies(result); };
   ASSERT_EQ(std::count_if(json_plots().begin(), json_plots().end(), of_its_kind), 1);
   const Plot plot = json_plot("law-fit").make(result, path);
-  ASSERT_EQ(plot.charts.size(), 2u);
+  ASSERT_EQ(plot.charts.size(), 4u);
   EXPECT_EQ(plot.charts[0].curves[0].x, (std::vector{0.05, 0.1, 0.3}));
   EXPECT_EQ(plot.charts[0].curves[0].y, (std::vector{0.0, 0.08, 2.5}));
   EXPECT_EQ(plot.charts[0].curves[0].error, (std::vector{0.0, 0.01, 0.1}));
@@ -183,6 +183,14 @@ TEST(LawFitPlot, FollowsEquation7) {
   EXPECT_EQ(plot.charts[1].curves[0].x, (std::vector{0.1, 0.2}));
   EXPECT_EQ(plot.charts[1].curves[0].y[1], 0.02);
   EXPECT_EQ(plot.charts[1].curves[0].error[1], 0.005);
+  const Curve &slope = plot.charts[1].curves[1], &solid = plot.charts[0].curves[2];
+  EXPECT_DOUBLE_EQ(slope.y.back(), 0.740 * std::pow(0.3, 2.1) - 0.0024);
+  for (std::size_t k = 0; k < solid.x.size(); ++k)
+    EXPECT_NEAR(solid.y[k], 15.4085 * std::pow(solid.x[k] / 0.3, 1.5), 1e-12);
+  ASSERT_EQ(plot.charts[2].curves.size(), 2u);  // a curve for each deformation
+  EXPECT_EQ(plot.charts[2].curves[0].x, (std::vector{0.0, 1.1}));
+  EXPECT_EQ(plot.charts[2].curves[0].y, (std::vector{0.001, 0.011}));
+  EXPECT_EQ(plot.charts[3].curves[1].y, (std::vector{0.002}));
 }
 
 TEST(DataTable, ReadsNumbersTextAndQuotes) {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dem/run_error.hpp"
+
 namespace isostat {
 namespace {
 
@@ -88,6 +90,17 @@ TEST(SoftParticle, ARotationPullsAlongItsSlip) {
   }
   EXPECT_GT(forward, 0);
   EXPECT_LT(backward, 0);
+}
+
+TEST(SoftParticle, BlownUpItIsMeasuredAgainWithASmallerStep) {
+  SoftParticleTest t = small(SoftPartner::wall);
+  t.relaxation.step = 8;
+  const SoftMeasurement m = measure_soft_particle(t, 1);
+  EXPECT_LT(m.step, 8);
+  t.relaxation.step = m.step;
+  EXPECT_EQ(measure_soft_particle(t, 1).normal.back().force, m.normal.back().force);
+  t.relaxation.step = 100;
+  EXPECT_THROW(measure_soft_particle(t, 1), RunError);
 }
 
 // Friction carries most of the load (PHYSICS.md 3: without it F falls to a third or less).
