@@ -304,7 +304,7 @@ int lab_soft_particle(int argc, char** argv) {
        {"--damping", "ZETA", "(default 0.3)"},
        {"--density", "RHO", "[kg/m^3] of the grains (default 2500)"},
        {"--modulus", "E", "[N/m^2] (default 5e5)"},
-       {"--step", "C", "time step in units of the stable one of the smallest grain (default 2; quasistatic, fire 3)"},
+       {"--step", "C", "time step in units of the stable one of the smallest grain (default 2; quasistatic 3)"},
        {"--speed", "V", "[m/s] of the approach (default 0.05; quasistatic 0.003125)"},
        {"--stops", "N", "times at which all velocities are set to zero (default 6; quasistatic 1)"},
        {"--wait", "T", "[s] before each stop and after the last (default 0.3; quasistatic 0.02)"},

@@ -157,7 +157,7 @@ class Experiment {
 Relaxation relaxation_of(SoftProtocol protocol) {
   Relaxation r;
   if (protocol == SoftProtocol::quasistatic) r.speed = 0.003125, r.waits = 2, r.wait = 0.02, r.step = 3;
-  if (protocol == SoftProtocol::fire) r.fire = true, r.step = 3;
+  if (protocol == SoftProtocol::fire) r.fire = true;
   return r;
 }
 
