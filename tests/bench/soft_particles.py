@@ -84,7 +84,7 @@ for what, partner, delta, n, more in (("normal", "wall", WALL, SOME, []), ("soft
     for protocol, trials in PRECISE.items():
         if protocol == "paper" and what != "normal":
             continue
-        for trial in trials if what == "normal" else trials[:3]:
+        for trial in trials if what != "tangential" else trials[:3]:
             CASES["precision"][f"{what}-{protocol}{'.'.join(('', *trial))}"] = case(
                 partner, protocol, delta, min(n, packings_of(protocol)), *trial, *more)
 CASES["time"] = {protocol: case("wall", protocol, NINE, SEVEN) for protocol in ("fire", "quasistatic", "paper")}

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Side by side with LAMMPS, LIGGGHTS and YADE in space: the same static Hertz packings on one core; million grain-steps per CPU second.
+"""Side by side with LAMMPS, LIGGGHTS and YADE in space: the same static Hertz packings on one core.
 
-E = 1e6, nu = .3, mu = .3, damping .3 (Tsuji), density 1, dt = .1 contact times of the smallest sphere. All start without
-velocities and springs and run in turn (A B A B ...); medians over the rounds. Only the step loop is timed. LAMMPS runs `pair_style
-granular` (hertz/material, tangential mindlin), which is our law but for the dashpot inside its Coulomb limit, and for the
-record gran/hertz/history. LIGGGHTS (gran model hertz, tangential history) and YADE (Hertz-Mindlin) run too where they are
-installed. Each packing is tried with the settings of LAMMPS's neighbour lists below; the best one counts.
+Million grain-steps per CPU second of the step loop; the codes run in turn (A B A B ...), medians over the rounds. E = 1e6,
+nu = .3, mu = .3, damping .3 (Tsuji), density 1, dt = .1 contact times of the smallest sphere; all start without velocities
+and springs. LAMMPS runs `pair_style granular` (hertz/material, tangential mindlin), which is our law but for the dashpot
+inside its Coulomb limit, and for the record gran/hertz/history, with the best of the neighbour settings below. LIGGGHTS (gran
+model hertz, tangential history) and YADE (Hertz-Mindlin) run too where they are installed.
     spheres.py PACKING.net... [--program build/release/bin/isostat] [--rounds 5] [--isa avx512,scalar]
 """
 import argparse
