@@ -54,7 +54,7 @@ class CellGrid {
   }
   int count(int axis) const { return count_[static_cast<std::size_t>(axis)]; }
   double width(int axis) const { return 1 / inverse_[static_cast<std::size_t>(axis)]; }  // infinite in a flat frame
-  double coordinate(double x, int axis) const {  // in columns
+  double coordinate(double x, int axis) const {                                          // in columns
     return (x - origin_[axis]) * inverse_[static_cast<std::size_t>(axis)];
   }
   int column(double x, int axis) const {

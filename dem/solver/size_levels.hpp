@@ -1,8 +1,8 @@
-// Near pairs among bodies of very different sizes. Each factor of two in diameter, counted from the smallest, has a grid
-// of its own, as wide as its bodies reach. Between two levels either every body of the finer looks for partners in the
-// coarser grid, in the few cells that its reach touches, or, where the larger bodies are few, they look in the finer
-// grid, whose cells are read in rows: the inside of a large body is empty and costs nothing. What is cheaper follows
-// from the numbers of bodies.
+// Near pairs among bodies of very different sizes. Each factor of two in diameter, counted from the smallest, has a
+// grid of its own, as wide as its bodies reach. Between two levels either every body of the finer looks for partners in
+// the coarser grid, in the few cells that its reach touches, or, where the larger bodies are few, they look in the
+// finer grid, whose cells are read in rows: the inside of a large body is empty and costs nothing. What is cheaper
+// follows from the numbers of bodies.
 #pragma once
 #include <algorithm>
 #include <array>

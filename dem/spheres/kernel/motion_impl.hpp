@@ -67,7 +67,7 @@ template <bool kRotation, bool kMoments>
 SphereMotionKernel in_cell(bool free) {
   return free ? advance<kRotation, true, kMoments> : advance<kRotation, false, kMoments>;
 }
-SphereMotionKernel motion_kernel(SphereMotionNeeds needs) {
+[[maybe_unused]] SphereMotionKernel motion_kernel(SphereMotionNeeds needs) {
   if (!needs.rotation) return in_cell<false, false>(needs.free_cell);
   return needs.moments ? in_cell<true, true>(needs.free_cell) : in_cell<true, false>(needs.free_cell);
 }
