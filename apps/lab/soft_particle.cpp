@@ -10,6 +10,7 @@
 #include <numbers>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "analysis/constitutive/soft_law_fit.hpp"
@@ -60,6 +61,18 @@ Enum choice(const Arguments& args, const std::string& option, const std::array<s
   return static_cast<Enum>(found - names.begin());
 }
 
+// The option behind a key of the insertion.
+std::string option_of(const std::string& key) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 5> options{
+      {{"insertion.shell_radius", "--radius"},
+       {"insertion.exponent", "--exponent"},
+       {"insertion.volume_factor", "--volume-factor"},
+       {"insertion.trials", "--trials"},
+       {"insertion.solid_fraction", "--solid-fraction"}}};
+  const auto found = std::find_if(options.begin(), options.end(), [&](const auto& o) { return o.first == key; });
+  return found == options.end() ? key : std::string(found->second);
+}
+
 SoftParticleTest test_of(const Arguments& args) {
   const auto partner = choice(args, "--partner", kSoftPartnerNames, SoftPartner::wall);
   const auto protocol = choice(args, "--protocol", kSoftProtocolNames, SoftProtocol::paper);
@@ -79,6 +92,8 @@ SoftParticleTest test_of(const Arguments& args) {
   const double rs = args.number("--radius").value_or(g.shell_radius);
   if (!(rs > 0)) refuse("--radius", *args.value("--radius"), "greater than 0");
   const double largest = args.number("--largest").value_or(0.5), ratio = args.number("--ratio").value_or(10);
+  if (!(largest > 0 && largest <= 1)) refuse("--largest", *args.value("--largest"), "above 0 and at most 1, the shell");
+  if (!(ratio >= 1)) refuse("--ratio", *args.value("--ratio"), "at least 1");
   g.shell_radius = rs, g.radius_max = largest * rs, g.radius_min = g.radius_max / ratio;
   g.exponent = args.number("--exponent").value_or(g.exponent);
   g.volume_factor = args.number("--volume-factor").value_or(g.volume_factor);
@@ -86,7 +101,7 @@ SoftParticleTest test_of(const Arguments& args) {
   g.solid_fraction = args.number("--solid-fraction");
   std::vector<Fault> faults;
   for (const SceneConflict& c : insertion_conflicts(g, 3))
-    faults.push_back({"command line", 0, c.key, c.value, c.rule});
+    faults.push_back({"command line", 0, option_of(c.key), c.value, c.rule});
   if (!faults.empty()) throw InputError(std::move(faults));
   const auto not_negative = [&](const char* option, double fallback) {
     const double x = args.number(option).value_or(fallback);
