@@ -10,9 +10,6 @@
 namespace isostat {
 namespace {
 
-// max that keeps a NaN: a run that has blown up must never look balanced.
-double largest_of(double a, double b) { return std::isnan(a) || b <= a ? a : b; }
-
 // Mean kinetic energy per grain, and how many grains have more than `tolerance` each [F0 a].
 struct Motion {
   double kinetic_energy = 0;

@@ -9,9 +9,6 @@
 namespace isostat {
 namespace {
 
-// max that keeps a NaN: a run that has blown up must never look balanced.
-double largest_of(double a, double b) { return std::isnan(a) || b <= a ? a : b; }
-
 ContactStiffness stiffness_of(const SphereLaw& law, const Packing<3>& packing, const Link<3>& link) {
   const std::vector<double>& radius = packing.bodies.radius;
   return pair_stiffness(law, radius[static_cast<std::size_t>(link.i)], radius[static_cast<std::size_t>(link.j)]);

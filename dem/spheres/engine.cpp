@@ -144,7 +144,7 @@ void SphereEngine::add_wall_loads(double time_step) {
 StressSums<3> SphereEngine::sums() const { return {motion_tally_.kinetic, force_tally_.virial}; }
 
 void SphereEngine::set_law(const SphereLaw& law, Springs springs) {
-  if (law.attraction > 0 && law.attraction_range > std::max(law_.attraction > 0 ? law_.attraction_range : 0.0, 0.0))
+  if (law.attraction > 0 && law.attraction_range > (law_.attraction > 0 ? law_.attraction_range : 0.0))
     throw std::logic_error("SphereEngine::set_law: the attraction reaches beyond the lists");
   SpherePairs& pairs = lists_.columns();
   if (springs == Springs::keep_elongations) {

@@ -2,6 +2,7 @@
 // velocities and static link forces alone, so that solver, state file and analysis give the same answer. Each system
 // evaluates its own (evaluate_certificate() beside its law); what the numbers mean is said here.
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <string>
 
@@ -26,6 +27,9 @@ struct Certificate {
   bool equilibrated = false;
   std::string finishing = "none";  // which finishing method acted, if any
 };
+
+// max that keeps a NaN: a run that has blown up must never look balanced.
+inline double largest_of(double a, double b) { return std::isnan(a) || b <= a ? a : b; }
 
 // The criterion furthest from its tolerance (measured as value / tolerance), for progress messages.
 struct WorstCriterion {

@@ -12,8 +12,6 @@
 namespace isostat {
 namespace {
 
-double largest_of(double a, double b) { return std::isnan(a) || b <= a ? a : b; }  // keeps a NaN
-
 bool is_free(const TrianglePacking& p, std::size_t g) { return p.grains.part[g] == GrainPart::free; }
 
 double kinetic_energy(const TrianglePacking& p, std::size_t g) {
