@@ -28,7 +28,7 @@ struct Element {
   static Shape shape() { return {}; }
 };
 template <class T>
-  requires std::is_enum_v<T>
+requires std::is_enum_v<T>
 struct Element<T> {
   using Scalar = std::underlying_type_t<T>;
   static Shape shape() { return {}; }

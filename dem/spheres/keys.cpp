@@ -75,6 +75,14 @@ std::vector<SceneKey> grain_keys() {
        .range = from(1, 1e15),
        .condition = is_inserted,
        .meaning = "I: random points that each listed grain is tried at."},
+      {.name = "grains.inserted_fraction",
+       .field = in<&S::sphere_grains, &G::inserted_fraction>,
+       .range = {0, 1, true, true},
+       .absent = "as grains.trials gives",
+       .condition = is_inserted,
+       .meaning =
+           "Solid fraction of the room that insertion is to reach, by the choice of the number of trials in place "
+           "of grains.trials."},
       {.name = "grains.count",
        .field = in<&S::sphere_grains, &G::count>,
        .range = from(1, 1e9),
@@ -303,6 +311,10 @@ std::vector<SceneKey> stage_keys() {
        .range = not_negative,
        .meaning =
            "Root mean square velocity drawn at the start of the stage, V* = sqrt(F0 D0 / m); 0: velocities are kept."},
+      {.name = "stage.stop",
+       .field = in<&S::stages, &StageScene::stop>,
+       .meaning = "All velocities and spins, of walls too, are set to zero when the stage begins: the stops of the "
+                  "soft-particles' protocol."},
       {.name = "stage.approach",
        .field = in<&S::stages, &StageScene::approach>,
        .unit = "a/T0",

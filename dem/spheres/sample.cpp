@@ -95,6 +95,15 @@ State<Spheres> state_from_file(const Scene& scene, std::uint64_t seed) {
   return state;
 }
 
+InsertedGrains<3> inserted(const InsertionScene& insertion, std::uint64_t seed) {
+  InsertedGrains<3> grains = insert_grains<3>(insertion, seed);
+  if (!grains.reached)
+    throw InputError("scene", 0, "grains.inserted_fraction", real_text(*insertion.solid_fraction),
+                     "a million trials a grain reach only " + real_text(grains.solid_fraction) +
+                         ": raise grains.volume_factor, or lower grains.diameter_min");
+  return grains;
+}
+
 State<Spheres> inserted_spheres(const Scene& scene, std::uint64_t seed) {
   const SphereGrainsScene& g = scene.sphere_grains;
   State<Spheres> state = without_bodies(scene, seed);
@@ -105,16 +114,16 @@ State<Spheres> inserted_spheres(const Scene& scene, std::uint64_t seed) {
       throw std::logic_error("inserted_spheres: grains.arrangement");
     case SphereArrangement::insertion:
       p.cell = PeriodicCell<3>{{{g.edge, g.edge, g.edge}}};
-      add_grains(p, insert_grains<3>(insertion, seed), {}, 0);
+      add_grains(p, inserted(insertion, seed), {}, 0);
       p.group.clear();
       break;
     case SphereArrangement::soft_wall:
-      add_soft_particle(p, insert_grains<3>(insertion, seed), {}, kFirstSoft);
+      add_soft_particle(p, inserted(insertion, seed), {}, kFirstSoft);
       p.walls.push_back(soft_partner_wall(g.shell_radius));
       break;
     case SphereArrangement::soft_pair:
-      add_soft_particle(p, insert_grains<3>(insertion, seed), {}, kFirstSoft);
-      add_soft_particle(p, insert_grains<3>(insertion, seed + kSecondStream), (2 * g.shell_radius) * kSoftApproach,
+      add_soft_particle(p, inserted(insertion, seed), {}, kFirstSoft);
+      add_soft_particle(p, inserted(insertion, seed + kSecondStream), (2 * g.shell_radius) * kSoftApproach,
                         kSecondSoft);
       break;
   }
@@ -131,6 +140,7 @@ InsertionScene insertion_of(const SphereGrainsScene& g) {
   i.box = {g.edge, g.edge, g.edge};
   i.radius_min = g.diameter_min / 2, i.radius_max = g.diameter_max / 2, i.exponent = g.exponent.value_or(0);
   i.volume_factor = g.volume_factor, i.trials = g.trials;
+  i.solid_fraction = g.inserted_fraction;
   i.soft_share = g.soft_share, i.soft_radius = g.soft_radius;
   return i;
 }

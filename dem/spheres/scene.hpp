@@ -23,6 +23,7 @@ struct SphereGrainsScene {
   double shell_radius = 1;   // R_s [a] of a soft-particle
   double volume_factor = 3;  // beta: volume of the listed grains over that of the room, by insertion
   double trials = 3e4;       // I: random points tried for each grain, by insertion
+  std::optional<double> inserted_fraction;  // [-] reached by the choice of I, by insertion
   int count = 1000;
   double solid_fraction = 0.3;            // [-] Phi_I
   double diameter_min = 0.5;              // [a]

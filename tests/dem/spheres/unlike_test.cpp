@@ -126,6 +126,34 @@ TEST(UnlikeSpheres, AreNoOtherLawForGrainsThatAreAlike) {
   }
 }
 
+// Given Hertz's and Mindlin's law as powers, soft-particles are grains.
+TEST(UnlikeSpheres, ASoftParticleUnderHertzsLawIsAGrain) {
+  oracle::RandomSpheres r;
+  r.law = oracle::soft_sphere_law();
+  r.law.attraction = r.law.attraction_range = r.law.rolling_friction = r.law.rolling_stiffness = 0;
+  r.room = 0.5, r.radius_min = r.radius_max = 0.45;
+  const double e = r.law.grain.modulus, reduced = reduced_modulus(r.law.grain, r.law.grain) / e,
+               shear = reduced_shear_modulus(r.law.grain, r.law.grain) / e;
+  // R* = R_s R/(R + R_s); two of one radius have half of it.
+  r.law.soft_solid = {4.0 / 3 * reduced, 1.5, 0, 8 * shear, 0.5, r.law.friction};
+  r.law.soft_soft = {4.0 / 3 * reduced * std::sqrt(0.5), 1.5, 0, 8 * shear * std::sqrt(0.5), 0.5, r.law.friction};
+  r.law.soft_curvature = 0.5;
+  const State<Spheres> grains = oracle::random_state(r);
+  for (const int every : {1, 2}) {
+    State<Spheres> a = grains, b = grains;
+    for (std::size_t k = 0; k < b.packing.bodies.size(); ++k)
+      b.packing.kind.push_back(k % static_cast<std::size_t>(every) == 0 ? SphereKind::soft : SphereKind::grain);
+    Solver one(a, {}, {}), other(b, {}, {});
+    one.run(500), other.run(500);
+    one.snapshot(a), other.snapshot(b);
+    EXPECT_GT(a.packing.links.size(), 30u);
+    for (std::size_t k = 0; k < a.packing.bodies.size(); ++k) {
+      EXPECT_NEAR(norm(a.packing.bodies.position[k] - b.packing.bodies.position[k]), 0, 1e-10);
+      EXPECT_NEAR(norm(a.packing.bodies.spin[k] - b.packing.bodies.spin[k]), 0, 1e-8);
+    }
+  }
+}
+
 // A central collision without damping gives the energy back, whatever meets what.
 TEST(UnlikeSpheres, CollideElastically) {
   for (const Pair pair : kPairs) {
