@@ -9,7 +9,7 @@
 #include "analysis/link_network.hpp"
 #include "analysis/network/force_measure.hpp"
 #include "analysis/sphere_network.hpp"
-#include "analysis/structure/fractal_fit.hpp"
+#include "analysis/structure/fit_constant.hpp"
 #include "dem/disks/disks.hpp"
 #include "dem/spheres/spheres.hpp"
 #include "dem/state/packing.hpp"

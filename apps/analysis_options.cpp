@@ -73,8 +73,7 @@ AnalysisOptions analysis_options(const Arguments& arguments) {
                      "must begin above 0: a power law has no end there");
   options.window_scan = arguments.has("--window-scan");
   if (const auto name = arguments.choice("--fit-constant", kFitConstantNames))
-    options.fit_constant = static_cast<FitConstant>(
-        std::find(kFitConstantNames.begin(), kFitConstantNames.end(), *name) - kFitConstantNames.begin());
+    options.fit_constant = *fit_constant_named(*name);
   options.pore_size = positive(arguments, "--pore-size");
   options.threshold = positive(arguments, "--threshold");
   if (arguments.choice("--force", {"total", "normal"}) == "normal") options.force_measure = ForceMeasure::normal;

@@ -7,19 +7,14 @@
 #include <array>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
+
+#include "analysis/structure/fit_constant.hpp"
 
 namespace isostat {
 
 double fractal_intensity(double k, double d_f, double xi, double amplitude, double constant);
 double fractal_correlation(double r, double d_f, double xi, double amplitude);
-
-// The constant of Eq. 28: any, not below 0, or none. An intensity cannot be negative, but where the window ends below
-// the range in which I(k) is fractal a free constant goes below 0 and takes d_F with it.
-enum class FitConstant { free, nonnegative, zero };
-inline constexpr std::array<std::string_view, 3> kFitConstantNames{"free", "nonnegative", "zero"};
-constexpr std::string_view name_of(FitConstant c) { return kFitConstantNames[static_cast<std::size_t>(c)]; }
 
 struct FractalFit {
   // Order of parameters in `error` and `correlation`: d_F, xi [length], amplitude, constant.

@@ -101,9 +101,7 @@ ScatteringFits scattering_fits(const Json& section) {
   const Json &fit = section.at("fit"), &power = section.at("power");
   fits.window = {fit.at("k_from").get<double>(), fit.at("k_limit").get<double>()};
   fits.power_window = power.at("asked_window").get<std::array<double, 2>>();
-  const auto name = fit.at("constant_is").get<std::string>();
-  fits.constant = static_cast<FitConstant>(std::find(kFitConstantNames.begin(), kFitConstantNames.end(), name) -
-                                           kFitConstantNames.begin());
+  fits.constant = fit_constant_named(fit.at("constant_is").get<std::string>()).value();
   fits.scan = section.contains("windows");
   return fits;
 }
