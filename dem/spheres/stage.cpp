@@ -30,7 +30,8 @@ void prepare_stage(State<Spheres>& s, const StageScene& stage) {
   if (!stage.friction) return;
   SphereLawScene law = s.scene.sphere_law;
   law.friction = *stage.friction;
-  s.law = resolve(law);
+  s.law = resolve(s.scene.sphere_grains, law);
+  if (s.packing.kind.empty()) s.law = without_unlike(s.law);
 }
 
 void agitate(State<Spheres>& s, const StageScene& stage) {
