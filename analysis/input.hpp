@@ -34,7 +34,7 @@ struct AnalysisOptions {
 struct AnalysisInput {
   std::string path;
   State<Disks> state;  // a network or foreign packing is a state without law; walls last (put_free_first)
-  std::optional<Packing<3>> packing_3d;  // a packing in space; `state` then has no grains
+  std::optional<SpherePacking> packing_3d;  // a packing in space; `state` then has no grains
   std::optional<State<Spheres>>
       spheres_state;         // that it comes from: law and walls, its bodies and links are moved out. None: no law
   bool links_given = false;  // the file lists contacts (a state always does); false: found by touching

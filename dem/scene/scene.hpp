@@ -102,6 +102,7 @@ struct StageScene {
   double stiffening_time = 200.0;          // [T0] of the exponential change of K_N
   Springs stiffening_keeps = Springs::keep_forces;
   std::optional<double> friction;  // mu of spheres from this stage on; absent: it stays
+  bool stop = false;               // spheres and walls stand still when it begins
   double approach = 0;             // [a/T0] speed of the first soft-particle towards its partner
   Until until = Until::equilibrium;
   double time = 0.0;          // [T0] length of the stage with until = "time"

@@ -24,7 +24,7 @@ using oracle::refusal;
 AnalysisInput input_of(Packing<3> p) {
   AnalysisInput input;
   input.path = "test";
-  input.packing_3d = std::move(p);
+  static_cast<Packing<3>&>(input.packing_3d.emplace()) = std::move(p);
   input.links_given = true;
   return input;
 }

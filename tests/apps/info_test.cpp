@@ -130,7 +130,7 @@ TEST_F(InfoCommand, TellsTheSystemAndItsOwnNumbers) {
   ASSERT_EQ(o.code, 0) << o.err;
   const json j = json::parse(o.out);
   EXPECT_EQ(j["system"], "triangles");
-  EXPECT_EQ(j["format_version"], 5);
+  EXPECT_EQ(j["format_version"], kStateFormatVersion);
   EXPECT_EQ(j["hash"], read_state_file(in_folder("triangles.h5")).hash);
   EXPECT_EQ(j["cell"], nullptr);
   EXPECT_EQ(j["seed"], state.seed);

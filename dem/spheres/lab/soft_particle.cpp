@@ -68,17 +68,30 @@ class Experiment {
       result_.grains = report.grains;
       result_.solid_fraction = report.solid_fraction;
       result_.exponent = report.exponent.value;
+      result_.softs = static_cast<std::size_t>(std::count(grains.soft.begin(), grains.soft.end(), 1));
       add_soft_particle(p, grains, {}, kFirstSoft);
     }
     if (test_.partner == SoftPartner::soft)
       add_soft_particle(p, insert_grains<3>(test_.insertion, seed + kSecondStream), (2 * radius_) * kSoftApproach,
                         kSecondSoft);
     else
-      p.walls.push_back(soft_partner_wall(radius_));
-    set_sphere_inertia(p.bodies, test_.density);
+      p.walls.push_back(partner_wall());
+    set_sphere_inertia(p, {test_.density, test_.density, test_.soft_density});
+    for (std::size_t k = 0; k < p.bodies.size(); ++k)
+      if (p.group[k] == kFirstSoft)
+        result_.density += p.bodies.mass[k] / (4.0 / 3 * std::numbers::pi * radius_ * radius_ * radius_);
     if (test_.partner == SoftPartner::none) p.bodies.mass[0] *= kHeavy, p.bodies.inertia[0] *= kHeavy;
-    s.time_step = test_.relaxation.step * time_step_unit(test_);
+    const double smallest = test_.partner == SoftPartner::none ? radius_ : test_.insertion.radius_min;
+    s.time_step = test_.relaxation.step * time_step_unit(test_.law, test_.density, smallest);
     return s;
+  }
+
+  SphereWall partner_wall() const {
+    SphereWall wall = soft_partner_wall(radius_);
+    if (test_.partner != SoftPartner::ball) return wall;
+    wall.shape = WallShape::ball, wall.radius = test_.partner_radius;
+    wall.point += test_.partner_radius * kSoftApproach;
+    return wall;
   }
 
   // The first particle, shell and grains, by a distance, at the speed of the protocol.
@@ -174,10 +187,9 @@ SoftParticleTest soft_particle_defaults(SoftPartner partner, SoftProtocol protoc
   return t;
 }
 
-double time_step_unit(const SoftParticleTest& test) {
-  const double radius = test.partner == SoftPartner::none ? test.insertion.shell_radius : test.insertion.radius_min;
-  const double mass = test.density * 4 / 3 * std::numbers::pi * radius * radius * radius;
-  const double k = normal_stiffness(test.law, pair_stiffness(test.law, radius, radius), -0.3 * radius);
+double time_step_unit(const SphereLaw& law, double density, double radius) {
+  const double mass = density * 4 / 3 * std::numbers::pi * radius * radius * radius;
+  const double k = normal_stiffness(law, pair_stiffness(law, radius, radius), -0.3 * radius);
   return 0.35 / std::sqrt(4 * k / mass);
 }
 
