@@ -311,6 +311,12 @@ std::vector<SceneKey> stage_keys() {
        .range = not_negative,
        .meaning =
            "Root mean square velocity drawn at the start of the stage, V* = sqrt(F0 D0 / m); 0: velocities are kept."},
+      {.name = "stage.velocity_of",
+       .field = in<&S::stages, &StageScene::velocity_of>,
+       .choices = names(kVelocityOfNames),
+       .meaning =
+           "Whose root mean square stage.velocity is: that of the velocity vector, or of each of its "
+           "components (the standard deviation of a Maxwell distribution), by the root of the dimension faster."},
       {.name = "stage.stop",
        .field = in<&S::stages, &StageScene::stop>,
        .meaning = "All velocities and spins, of walls too, are set to zero when the stage begins: the stops of the "

@@ -44,7 +44,7 @@ void prepare_stage(State<Spheres>& s, const StageScene& stage) {
 }
 
 void agitate(State<Spheres>& s, const StageScene& stage) {
-  if (stage.velocity > 0) draw_velocities(s, stage.velocity * std::sqrt(s.law.attraction * s.law.attraction_range));
+  if (stage.velocity > 0) draw_velocities(s, drawn_speed(s, stage));
 }
 
 bool event_met(const State<Spheres>&, const StageScene&) { return false; }

@@ -67,6 +67,7 @@ TEST(SphereSections, LatticeUnderPressure) {
   EXPECT_NEAR(report["stress"]["pressure"].get<double>(), 2, 1e-12);
   EXPECT_NEAR(report["stress"]["rumpf_force"].get<double>(), 2, 1e-12);
   EXPECT_NEAR(report["stress"]["mean_normal_force"].get<double>(), 2, 1e-12);
+  EXPECT_NEAR(report["stress"]["mean_force_diameter"].get<double>(), 2, 1e-12);
   EXPECT_NEAR(report["equilibrium"]["max_force"].get<double>(), 0, 1e-12);
   EXPECT_NEAR(report["equilibrium"]["max_moment"].get<double>(), 0, 1e-12);
   EXPECT_EQ(report["equilibrium"]["force_scale"], 2.0);
