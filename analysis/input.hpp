@@ -1,6 +1,7 @@
 // What `isostat analyze` works on: a packing, the law it may bring, and the options of the command line.
 #pragma once
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,14 +22,15 @@ constexpr std::string_view name_of(NetworkLaw law) { return kNetworkLawNames[sta
 std::optional<NetworkLaw> network_law_named(std::string_view name);  // none: no such law
 
 struct AnalysisOptions {
-  std::optional<NetworkLaw> law;        // --law; none: the state's own law (a network: friction)
-  bool cell_free = false;               // --cell free: add the diagonal strain dofs
-  std::optional<double> gap_tolerance;  // --gap-tolerance [length of the input]
-  bool prestress = false;               // --prestress: modes of the full tangent, too
-  bool near_null = false;               // --near-null: near-null singular values of G whatever its size
-  int most_vectors = 20;                // --vectors: of each basis of the section bases
-  std::vector<double> stiffness;        // --stiffness: K_N, K_T, K_R of a packing without a law, as given
-  double k_max = 0;                     // --k-max [1/length]; 0: the section's default
+  std::optional<NetworkLaw> law;                   // --law; none: the state's own law (a network: friction)
+  bool cell_free = false;                          // --cell free: add the diagonal strain dofs
+  std::optional<double> gap_tolerance;             // --gap-tolerance [length of the input]
+  bool prestress = false;                          // --prestress: modes of the full tangent, too
+  bool near_null = false;                          // --near-null: near-null singular values of G whatever its size
+  int most_vectors = 20;                           // --vectors: of each basis of the section bases
+  std::vector<double> stiffness;                   // --stiffness: K_N, K_T, K_R of a packing without a law, as given
+  double k_max = 0;                                // --k-max [1/length]; 0: the section's default
+  std::function<void(std::string_view)> begins{};  // hears the name of each section that is about to be computed
 };
 
 struct AnalysisInput {

@@ -6,6 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "analysis/report_units.hpp"
 #include "dem/files/formats/real_text.hpp"
 
 namespace isostat {
@@ -57,17 +58,20 @@ std::string short_text(const Json& v) {
   return text + "]";
 }
 
-void add_lines(std::string& text, const std::string& prefix, const Json& object) {
+// `unit` knows the unit of a dotted name.
+template <class Unit>
+void add_lines(std::string& text, const std::string& prefix, const Json& object, const Unit& unit) {
   for (const auto& [key, v] : object.items()) {
     const std::string name = prefix + key;
     if (is_histogram(v)) {
       continue;  // for --json and --csv
     } else if (v.is_object() && !is_statistic(v)) {
-      add_lines(text, name + ".", v);
+      add_lines(text, name + ".", v, unit);
     } else {
       std::string line = "  " + name;
       line.resize(std::max<std::size_t>(line.size() + 2, 32), ' ');
-      text += line + short_text(v) + '\n';
+      const std::string of = unit(name), number = short_text(v);
+      text += line + number + (of.empty() || number == "-" ? "" : " " + of) + '\n';
     }
   }
 }
@@ -213,11 +217,14 @@ bool is_section(const std::string& key) { return key != "isostat" && key != "inp
 
 std::string report_as_text(const Json& report) {
   std::string text;
+  const Json units = report.value("units", Json::object());
   for (const auto& [key, v] : report.items()) {
     if (!is_section(key) || !v.is_object()) continue;
     text += key + '\n';
-    add_lines(text, "", v);
+    add_lines(text, "", v,
+              [&, section = key](const std::string& name) { return unit_of(section + "." + name, units); });
   }
+  if (!units.empty() && !units.contains("length")) text += "numbers with a unit are in that of the input file\n";
   return text;
 }
 

@@ -17,7 +17,7 @@ SEEDS, ROUNDS = (1, 2, 3, 4), 2
 
 
 def cpu_seconds(program, rolling, seed, folder):
-    command = [program, "pack", SCENE, "-o", f"{folder}/state.h5", "--set", f"seed={seed}", "--set",
+    command = [program, "pack", SCENE, "-o", f"{folder}/state-{rolling}-{seed}.h5", "--set", f"seed={seed}", "--set",
                f"law.rolling={rolling}"]
     process = subprocess.Popen(command, stderr=subprocess.DEVNULL)
     _, status, usage = os.wait4(process.pid, 0)
