@@ -257,7 +257,7 @@ TEST(PackingFile, CellOfOtherUnitsIsRefused) {
   EXPECT_THAT(faults_of(dir / "g.csv", reading), HasSubstr("below 0.1 of the largest radius"));
   reading.box = {1, 0.11};
   EXPECT_EQ(faults_of(dir / "g.csv", reading), "accepted");
-  EXPECT_THAT(faults_of(dir / "g.net"), HasSubstr("g.net:1: cell: an edge is below 0.1 of the largest radius"));
+  EXPECT_THAT(faults_of(dir / "g.net"), HasSubstr("g.net:1: cell.L of the largest radius"));
   write_files_atomically({{dir / "g.csv", "id,x,y,r\n1,1e9,0,1\n"}});
   EXPECT_THAT(faults_of(dir / "g.csv", reading), HasSubstr("1e8 cells away"));
 }
