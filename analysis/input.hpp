@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "analysis/link_network.hpp"
+#include "analysis/network/force_measure.hpp"
 #include "analysis/sphere_network.hpp"
+#include "analysis/structure/fit_constant.hpp"
 #include "dem/disks/disks.hpp"
 #include "dem/spheres/spheres.hpp"
 #include "dem/state/packing.hpp"
@@ -22,21 +24,30 @@ constexpr std::string_view name_of(NetworkLaw law) { return kNetworkLawNames[sta
 std::optional<NetworkLaw> network_law_named(std::string_view name);  // none: no such law
 
 struct AnalysisOptions {
-  std::optional<NetworkLaw> law;                   // --law; none: the state's own law (a network: friction)
-  bool cell_free = false;                          // --cell free: add the diagonal strain dofs
-  std::optional<double> gap_tolerance;             // --gap-tolerance [length of the input]
-  bool prestress = false;                          // --prestress: modes of the full tangent, too
-  bool near_null = false;                          // --near-null: near-null singular values of G whatever its size
-  int most_vectors = 20;                           // --vectors: of each basis of the section bases
-  std::vector<double> stiffness;                   // --stiffness: K_N, K_T, K_R of a packing without a law, as given
-  double k_max = 0;                                // --k-max [1/length]; 0: the section's default
-  std::function<void(std::string_view)> begins{};  // hears the name of each section that is about to be computed
+  std::optional<NetworkLaw> law;        // --law; none: the state's own law (a network: friction)
+  bool cell_free = false;               // --cell free: add the diagonal strain dofs
+  std::optional<double> gap_tolerance;  // --gap-tolerance [length of the input]
+  bool prestress = false;               // --prestress: modes of the full tangent, too
+  bool near_null = false;               // --near-null: near-null singular values of G whatever its size
+  int most_vectors = 20;                // --vectors: of each basis of the section bases
+  std::vector<double> stiffness;        // --stiffness: K_N, K_T, K_R of a packing without a law, as given
+  double k_max = 0;                     // --k-max [1/length]; 0: the section's default
+  using Window = std::optional<std::array<double, 2>>;
+  Window k_window;                                   // --k-window [1/length]: of the fits of I(k); none: the default
+  Window r_window;                                   // --r-window [length]: of the fits of C(r) and M(r)
+  Window pore_window;                                // --pore-window [length]: of the exponent of pore sizes
+  FitConstant fit_constant = FitConstant::free;      // --fit-constant: of Eq. 28
+  bool window_scan = false;                          // --window-scan: fits of I(k) and C(r) in other windows, too
+  std::optional<double> pore_size;                   // --pore-size [length]: what a small pore is; none: a
+  std::optional<double> threshold;                   // --threshold [force]: what a stressed link bears; none: F1/100
+  ForceMeasure force_measure = ForceMeasure::total;  // --force: of what the threshold is
+  std::function<void(std::string_view)> begins{};    // hears the name of each section that is about to be computed
 };
 
 struct AnalysisInput {
   std::string path;
   State<Disks> state;  // a network or foreign packing is a state without law; walls last (put_free_first)
-  std::optional<Packing<3>> packing_3d;  // a packing in space; `state` then has no grains
+  std::optional<SpherePacking> packing_3d;  // a packing in space; `state` then has no grains
   std::optional<State<Spheres>>
       spheres_state;         // that it comes from: law and walls, its bodies and links are moved out. None: no law
   bool links_given = false;  // the file lists contacts (a state always does); false: found by touching

@@ -58,6 +58,15 @@ std::string short_text(const Json& v) {
   return text + "]";
 }
 
+// A fit without a result is said to be one, and its numbers are not shown.
+bool is_untold(const Json& fit) { return fit.contains("identifiable") && fit["identifiable"] == false; }
+
+void add_line(std::string& text, const std::string& name, const std::string& value) {
+  std::string line = "  " + name;
+  line.resize(std::max<std::size_t>(line.size() + 2, 32), ' ');
+  text += line + value + '\n';
+}
+
 // `unit` knows the unit of a dotted name.
 template <class Unit>
 void add_lines(std::string& text, const std::string& prefix, const Json& object, const Unit& unit) {
@@ -65,13 +74,14 @@ void add_lines(std::string& text, const std::string& prefix, const Json& object,
     const std::string name = prefix + key;
     if (is_histogram(v)) {
       continue;  // for --json and --csv
+    } else if (v.is_object() && is_untold(v)) {
+      const Json message = v.value("message", Json());
+      add_line(text, name, "NOT IDENTIFIABLE" + (message.is_string() ? ": " + message.get<std::string>() : ""));
     } else if (v.is_object() && !is_statistic(v)) {
       add_lines(text, name + ".", v, unit);
     } else {
-      std::string line = "  " + name;
-      line.resize(std::max<std::size_t>(line.size() + 2, 32), ' ');
       const std::string of = unit(name), number = short_text(v);
-      text += line + number + (of.empty() || number == "-" ? "" : " " + of) + '\n';
+      add_line(text, name, number + (of.empty() || number == "-" ? "" : " " + of));
     }
   }
 }

@@ -104,24 +104,36 @@ Json law_json(const TriangleLaw& law) {
           {"limit_angle", number(angle)}};
 }
 
+Json law_json(const SoftParticleLaw& law) {
+  const auto& [force, exponent, offset, tangential, tangential_exponent, friction] = law;
+  return {{"force", force},           {"exponent", exponent}, {"offset", offset},
+          {"tangential", tangential}, {"friction", friction}, {"tangential_exponent", tangential_exponent}};
+}
+
 // The same of spheres: E and nu with Hertz's law, stiffnesses with the linear one.
 Json law_json(const SphereLaw& law) {
-  const auto& [normal, grain, wall, kn, kt, zeta, zeta_t, mu, mu_w, mu_r, kr, f0, d0] = law;
-  return {{"normal", kNormalForceNames[static_cast<std::size_t>(normal)]},
-          {"modulus", grain.modulus},
-          {"poisson", grain.poisson},
-          {"wall_modulus", wall.modulus},
-          {"wall_poisson", wall.poisson},
-          {"normal_stiffness", kn},
-          {"tangential_stiffness", kt},
-          {"damping", zeta},
-          {"tangential_damping", zeta_t},
-          {"friction", mu},
-          {"wall_friction", mu_w},
-          {"rolling_friction", mu_r},
-          {"rolling_stiffness", kr},
-          {"attraction", f0},
-          {"attraction_range", d0}};
+  const auto& [normal, grain, wall, second, soft_solid, soft_soft, curvature, kn, kt, zeta, zeta_t, mu, mu_w, mu_r, kr,
+               f0, d0] = law;
+  Json json{{"normal", kNormalForceNames[static_cast<std::size_t>(normal)]},
+            {"modulus", grain.modulus},
+            {"poisson", grain.poisson},
+            {"wall_modulus", wall.modulus},
+            {"wall_poisson", wall.poisson},
+            {"normal_stiffness", kn},
+            {"tangential_stiffness", kt},
+            {"damping", zeta},
+            {"tangential_damping", zeta_t},
+            {"friction", mu},
+            {"wall_friction", mu_w},
+            {"rolling_friction", mu_r},
+            {"rolling_stiffness", kr},
+            {"attraction", f0},
+            {"attraction_range", d0}};
+  if (second != SphereMaterial{}) json["second_modulus"] = second.modulus, json["second_poisson"] = second.poisson;
+  if (soft_solid == SoftParticleLaw{}) return json;
+  json["soft_solid"] = law_json(soft_solid), json["soft_soft"] = law_json(soft_soft);
+  json["soft_curvature"] = curvature;
+  return json;
 }
 
 // What only one system has: numbers of bodies, and what ends the report.

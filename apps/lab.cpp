@@ -19,7 +19,9 @@ int lab_command(int argc, char** argv) {
                                         {"collide-squares", lab_collide_squares},
                                         {"overlap", lab_overlap},
                                         {"throughput", lab_throughput},
-                                        {"soft-particle", lab_soft_particle}};
+                                        {"soft-particle", lab_soft_particle},
+                                        {"soft-laws", lab_soft_laws},
+                                        {"soft-packing", lab_soft_packing}};
   std::string list;
   for (const Experiment& e : experiments) {
     if (argc > 1 && e.name == argv[1]) return e.run(argc - 1, argv + 1);

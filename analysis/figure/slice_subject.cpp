@@ -49,7 +49,7 @@ void SliceSubject::draw(Canvas& canvas, const PictureFrame& frame) const {
       const double d = slice_.at - wall.point[slice_.axis];
       const Vec2 point = view.flat(wall.point), normal = view.flat(wall.normal);
       std::vector<Vec2> line;
-      if (wall.shape == WallShape::shell && std::abs(d) < wall.radius) {
+      if (wall.shape != WallShape::plane && std::abs(d) < wall.radius) {
         const double radius = std::sqrt((wall.radius - d) * (wall.radius + d));
         for (int k = 0; k <= kCircleSides; ++k) {
           const double angle = 2 * std::numbers::pi * k / kCircleSides;

@@ -84,7 +84,7 @@ void draw_walls(Canvas& canvas, const SpherePen& pen, Side side) {
     canvas.polygons({&outline, 1}, paint);
   }
   for (const SphereWall& wall : pen.packing().walls) {  // over planes, which would hide them
-    if (wall.shape != WallShape::shell || side != Side::back) continue;
+    if (wall.shape == WallShape::plane || side != Side::back) continue;
     const DiskMark mark{pen.page(wall.point - middle_of(pen.packing())), pen.points(wall.radius)};
     canvas.disks({&mark, 1}, {std::nullopt, edge});
   }

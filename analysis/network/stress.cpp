@@ -9,6 +9,7 @@
 #include "analysis/network/triangle_sections.hpp"
 #include "dem/state/balance.hpp"
 #include "dem/state/balance_3d.hpp"
+#include "dem/state/link_ends.hpp"
 
 namespace isostat {
 namespace {
@@ -40,6 +41,19 @@ double mean_normal_force(const Packing<D>& packing, const Coordination& c) {
   return interactions > 0 ? sum / interactions : kUndefined;
 }
 
+// <N (R_i + R_j)> over the interactions. To h << R_i + R_j it is Rumpf's force times <d>; Eq. 16 puts <N> <d> in its
+// place.
+template <int D>
+double mean_force_diameter(const Packing<D>& packing, const Coordination& c) {
+  double sum = 0;
+  for (std::size_t l = 0; l < packing.links.size(); ++l) {
+    const LinkEnds<D> end = ends(packing, packing.links[l]);
+    if (c.counted[l]) sum += packing.links[l].normal_force * (end.radius_i + end.radius_j);
+  }
+  const auto interactions = static_cast<double>(c.contacts + c.distant);
+  return interactions > 0 ? sum / interactions : kUndefined;
+}
+
 nlohmann::ordered_json stress_of_spheres(const Packing<3>& packing, const ForceReading& reading) {
   const StressTensor3 s = measured_stress(packing);
   const Coordination c = coordination(packing, reading);
@@ -49,6 +63,7 @@ nlohmann::ordered_json stress_of_spheres(const Packing<3>& packing, const ForceR
   json["pressure"] = pressure;
   json["rumpf_force"] = rumpf_force(packing, pressure, mean_degree(packing, c));
   json["mean_normal_force"] = mean_normal_force(packing, c);
+  json["mean_force_diameter"] = mean_force_diameter(packing, c);
   return json;
 }
 
@@ -68,6 +83,7 @@ nlohmann::ordered_json stress_section(const AnalysisInput& input, const Analysis
   json["rumpf_force"] =
       rumpf_force(packing, 0.5 * (s.xx + s.yy), 2 * interactions / static_cast<double>(packing.bodies.size()));
   json["mean_normal_force"] = mean_normal_force(packing, c);
+  json["mean_force_diameter"] = mean_force_diameter(packing, c);
   return json;
 }
 

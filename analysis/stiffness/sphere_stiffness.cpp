@@ -75,11 +75,10 @@ std::vector<SphereStiffness> by_link(const Packing<3>& packing, const UniformSti
   return all;
 }
 
-std::vector<SphereStiffness> by_link(const Packing<3>& packing, const SphereLaw& law) {
+std::vector<SphereStiffness> by_link(const SpherePacking& packing, const SphereLaw& law) {
   std::vector<SphereStiffness> all;
-  const std::vector<double>& radius = packing.bodies.radius;
   for (const Link<3>& link : packing.links) {
-    const ContactStiffness c = pair_stiffness(law, radius[idx(link.i)], radius[idx(link.j)]);
+    const ContactStiffness c = pair_stiffness(law, body_of(packing, link.i), body_of(packing, link.j));
     all.push_back({at_rest(law, c, link.gap).stiffness, tangential_stiffness(law, c, link.gap),
                    link.kind == LinkKind::distant ? 0.0 : law.rolling_stiffness, link.normal_force});
   }

@@ -8,7 +8,7 @@
 #include "analysis/rigidity/rigidity_matrix.hpp"
 #include "analysis/stiffness/sparse_cholesky.hpp"
 #include "analysis/stiffness/vibration.hpp"
-#include "dem/spheres/sphere_law.hpp"
+#include "dem/spheres/spheres.hpp"
 
 namespace isostat {
 
@@ -28,7 +28,7 @@ struct UniformStiffness {
 UniformStiffness network_stiffness(const Packing<3>& packing, const std::vector<double>& given);
 std::vector<SphereStiffness> by_link(const Packing<3>& packing, const UniformStiffness& stiffness);
 // Of a state: the tangents of its law at the gaps of the links.
-std::vector<SphereStiffness> by_link(const Packing<3>& packing, const SphereLaw& law);
+std::vector<SphereStiffness> by_link(const SpherePacking& packing, const SphereLaw& law);
 
 // Of rows in contact frames.
 std::vector<double> row_stiffness(const RigidityMatrix& in_frames, const std::vector<SphereStiffness>& stiffness);

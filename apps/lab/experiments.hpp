@@ -12,6 +12,8 @@ int lab_grain(int argc, char** argv);
 int lab_collide_squares(int argc, char** argv);
 int lab_overlap(int argc, char** argv);
 int lab_soft_particle(int argc, char** argv);
+int lab_soft_laws(int argc, char** argv);
+int lab_soft_packing(int argc, char** argv);
 
 inline constexpr OptionSpec kJsonOption{"--json", "FILE|-", "where the JSON goes (default -)"};
 

@@ -1,11 +1,8 @@
 // isostat lab soft-particle: the constitutive laws of soft-particles in space (seed 000), measured and fitted.
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <charconv>
 #include <cmath>
-#include <exception>
-#include <mutex>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
@@ -17,6 +14,7 @@
 #include "apps/commands.hpp"
 #include "apps/json_output.hpp"
 #include "apps/lab/experiments.hpp"
+#include "apps/lab/soft_measurement.hpp"
 #include "dem/files/atomic_file.hpp"
 #include "dem/input_error.hpp"
 #include "dem/sample/insertion_scene.hpp"
@@ -86,6 +84,8 @@ SoftParticleTest test_of(const Arguments& args) {
   for (const double a : t.alpha)
     if (!(std::abs(a) <= 45) || a == 0)
       refuse("--alpha", *args.value("--alpha"), "angles within 45 degrees, none of them 0");
+  if (partner == SoftPartner::cage && !t.alpha.empty())
+    refuse("--alpha", *args.value("--alpha"), "nothing turns in a cage; --partner wall or soft");
   if (partner == SoftPartner::none && !t.alpha.empty())
     refuse("--alpha", *args.value("--alpha"), "a solid sphere is not turned; --partner wall or soft");
   InsertionScene& g = t.insertion;
@@ -113,6 +113,12 @@ SoftParticleTest test_of(const Arguments& args) {
   t.law.damping = not_negative("--damping", t.law.damping);
   t.density = not_negative("--density", t.density);
   t.law.grain.modulus = t.law.wall.modulus = not_negative("--modulus", t.law.grain.modulus);
+  if (partner == SoftPartner::ball) {
+    t.partner_radius = args.number("--partner-radius").value_or(rs);
+    if (!(t.partner_radius > 0)) refuse("--partner-radius", *args.value("--partner-radius"), "greater than 0");
+  } else if (const auto radius = args.value("--partner-radius")) {
+    refuse("--partner-radius", *radius, "of --partner ball alone");
+  }
   if (!(t.law.grain.modulus > 0))
     refuse("--modulus", "0", "greater than 0: a material without stiffness has no contacts");
   if (!(t.density > 0)) refuse("--density", "0", "greater than 0");
@@ -126,56 +132,6 @@ SoftParticleTest test_of(const Arguments& args) {
     refuse("--step", *args.value("--step"), "above 0 and at most 8: no step beyond is stable");
   if (!(r.speed > 0)) refuse("--speed", *args.value("--speed"), "greater than 0");
   return t;
-}
-
-// One after the other on each thread; results in the order of the seeds.
-std::vector<SoftMeasurement> measure_all(const SoftParticleTest& test, std::uint64_t seed, std::size_t packings,
-                                         unsigned threads) {
-  std::vector<SoftMeasurement> results(packings);
-  std::atomic<std::size_t> next{0};
-  std::exception_ptr failure;
-  std::mutex lock;
-  const auto work = [&] {
-    for (std::size_t k = next++; k < packings; k = next++) try {
-        results[k] = measure_soft_particle(test, seed + k);
-      } catch (...) {
-        const std::scoped_lock hold(lock);
-        if (!failure) failure = std::current_exception();
-        next = packings;
-      }
-  };
-  {
-    std::vector<std::jthread> team;
-    for (unsigned t = 1; t < threads; ++t) team.emplace_back(work);
-    work();
-  }
-  if (failure) std::rethrow_exception(failure);
-  return results;
-}
-
-// Least squares line through the angles measured: slope of f against alpha.
-double slope(const std::vector<TangentialPoint>& points, double TangentialPoint::*f) {
-  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
-  for (const TangentialPoint& p : points)
-    n += 1, x += p.alpha, y += p.*f, xx += p.alpha * p.alpha, xy += p.alpha * (p.*f);
-  return (n * xy - x * y) / (n * xx - x * x);
-}
-
-struct Slopes {
-  std::vector<double> along, across, prestrain;  // by delta, of one packing
-};
-
-Slopes slopes_of(const SoftMeasurement& m, const std::vector<double>& deltas) {
-  Slopes s;
-  for (const double delta : deltas) {
-    std::vector<TangentialPoint> at;
-    std::copy_if(m.tangential.begin(), m.tangential.end(), std::back_inserter(at),
-                 [delta](const TangentialPoint& p) { return p.delta == delta; });
-    s.along.push_back(slope(at, &TangentialPoint::along));
-    s.across.push_back(slope(at, &TangentialPoint::perpendicular));
-    s.prestrain.push_back(at.front().along);
-  }
-  return s;
 }
 
 Json fit_json(const SoftLaw& law, const SoftLawErrors& e) {
@@ -212,8 +168,9 @@ Json turned_json(const SoftParticleTest& test, const std::vector<SoftMeasurement
 // Of solid spheres of radius R_s in place of the soft ones.
 double solid_force(const SoftParticleTest& test, double delta) {
   const double rs = test.insertion.shell_radius;
-  const ContactStiffness k =
-      test.partner == SoftPartner::soft ? pair_stiffness(test.law, rs, rs) : wall_stiffness(test.law, rs);
+  const double other = test.partner == SoftPartner::ball ? test.partner_radius : rs;
+  const bool at_wall = test.partner != SoftPartner::soft && test.partner != SoftPartner::ball;
+  const ContactStiffness k = at_wall ? wall_stiffness(test.law, rs) : pair_stiffness(test.law, rs, other);
   return repulsion(test.law, k, -delta * rs);
 }
 
@@ -253,7 +210,7 @@ Json report(const SoftParticleTest& test, const std::vector<SoftMeasurement>& al
   if (!test.alpha.empty()) {
     Samples along, across, prestrain;
     for (const SoftMeasurement& m : all) {
-      Slopes s = slopes_of(m, test.delta);
+      SoftSlopes s = slopes_of(m, test.delta);
       along.push_back(s.along), across.push_back(s.across), prestrain.push_back(s.prestrain);
     }
     const auto k_t = mean_of(along), k_error = standard_error_of(along), side = mean_of(across),
@@ -300,7 +257,11 @@ std::string raw_csv(const std::vector<SoftMeasurement>& all) {
 int lab_soft_particle(int argc, char** argv) {
   const Arguments args(
       argc, argv,
-      {{"--partner", "P", "wall (default), soft: another soft-particle, none: one solid sphere against the wall"},
+      {{"--partner", "P",
+        "wall (default), soft: another soft-particle, ball: a solid sphere, cage: six walls that close in together, "
+        "none: "
+        "one solid sphere against the wall"},
+       {"--partner-radius", "R", "[m] of the ball (default RS)"},
        {"--protocol", "P", "paper (default), quasistatic, fire"},
        {"--delta", "LIST", "normal deformations h_n / R_s, ascending, as in 0.1,0.2,0.3"},
        {"--alpha", "LIST", "[degrees] rotations at each of them: tangential forces, too"},
@@ -333,7 +294,7 @@ int lab_soft_particle(int argc, char** argv) {
   const auto threads = static_cast<unsigned>(
       args.integer("--threads", 1, 1024).value_or(std::max(1u, std::thread::hardware_concurrency())));
   if (const auto raw = args.value("--raw")) require_writable(*raw);
-  const std::vector<SoftMeasurement> all = measure_all(test, seed, packings, threads);
+  const std::vector<SoftMeasurement> all = measure_soft_particles(test, seed, packings, threads);
   if (const auto raw = args.value("--raw")) write_file_atomically(*raw, raw_csv(all));
   write_json(args, report(test, all));
   return exit_done;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "dem/disks/density.hpp"
 #include "dem/disks/scales.hpp"
 #include "dem/scene/text.hpp"
 #include "dem/state/container_region.hpp"
@@ -165,6 +166,11 @@ void check_surroundings(const Scene& scene, std::vector<SceneConflict>& found) {
                      {"finish.method", "container.shape", "gravity"}});
   if (!scene.grains.file.empty()) return;  // its grains say the time step
   const GrainsScene& g = scene.grains;
+  if (!is_collision(scene) && g.solid_fraction > kDensestAtRandom)
+    found.push_back({"grains.solid_fraction",
+                     real_text(g.solid_fraction),
+                     "at most " + real_text(kDensestAtRandom) + " in a container, where disks are placed at random",
+                     {"grains.solid_fraction", "container.shape"}});
   const double dt = time_step(resolve(scene.law), scene.step.fraction, g.diameter_max);
   for (SceneConflict& c : wall_motion_conflicts(scene, dt, g.diameter_min)) found.push_back(std::move(c));
 }

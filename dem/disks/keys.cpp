@@ -1,5 +1,6 @@
 #include "dem/disks/keys.hpp"
 
+#include "dem/disks/density.hpp"
 #include "dem/scene/key_rows.hpp"
 
 namespace isostat {
@@ -32,11 +33,12 @@ std::vector<SceneKey> disk_keys() {
            .meaning = "Number N of disks."},
           {.name = "grains.solid_fraction",
            .field = in<&S::grains, &GrainsScene::solid_fraction>,
-           .range = {0, 0.5, true, false},
+           .range = {0, kDensestGas, true, false},
            .condition = random_places,
            .meaning =
-               "Solid fraction Phi_I of the initial state: sum of pi d^2/4 over the area of the cell. Equal disks "
-               "placed at random without overlap saturate at 0.547, hence the limit."},
+               "Solid fraction Phi_I of the initial state: sum of pi d^2/4 over the area of the cell. Up to 0.5 the "
+               "disks are placed at random without overlap, the largest first (equal ones saturate at 0.547); above "
+               "it, without a container, they are a gas of hard disks in equilibrium (equal ones order at 0.70)."},
           {.name = "grains.diameter_min",
            .field = in<&S::grains, &GrainsScene::diameter_min>,
            .unit = "a",

@@ -6,9 +6,11 @@
 #include <numeric>
 
 #include "dem/disks/container.hpp"
+#include "dem/disks/density.hpp"
 #include "dem/disks/scales.hpp"
 #include "dem/files/packing_file.hpp"
 #include "dem/input_error.hpp"
+#include "dem/sample/hard_gas.hpp"
 #include "dem/sample/random_placement.hpp"
 #include "dem/scene/check.hpp"
 #include "dem/scene/text.hpp"
@@ -21,7 +23,8 @@
 namespace isostat {
 namespace {
 
-constexpr int kMostTries = 20000;  // per disk
+constexpr int kMostTries = 20000;      // per disk
+constexpr double kBeforeGrowth = 0.4;  // [-] solid fraction at which the disks of a dense start are placed
 
 }  // namespace
 
@@ -176,6 +179,11 @@ State<Disks> about_to_collide(const Scene& scene, std::uint64_t seed) {
   return state;
 }
 
+[[noreturn]] void refuse_density(const GrainsScene& g) {
+  throw InputError("scene", 0, "grains.solid_fraction", real_text(g.solid_fraction),
+                   "no room was found for disks that keep law.attraction_range apart; lower it (0.5 is safe)");
+}
+
 constexpr double kRoomAtLeast = 8;  // [largest diameter^2] of a container: for a few grains
 
 // area [a^2] of the room.
@@ -223,20 +231,26 @@ State<Disks> initial_disks(const Scene& scene, std::uint64_t seed) {
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t p, std::size_t q) { return diameters[p] > diameters[q]; });
-  Placement<2> placement(room.frame, diameters[order[0]], state.law.attraction_range, n);
+  const double gap = state.law.attraction_range;
+  const bool dense = g.solid_fraction > kDensestAtRandom;
+  const double part = dense ? std::sqrt(kBeforeGrowth / g.solid_fraction) : 1.0;
+  Placement<2> placement(room.frame, diameters[order[0]], gap, n);
   for (std::size_t k : order) {
     b.id[k] = static_cast<std::int64_t>(k);
-    b.radius[k] = diameters[k] / 2;
+    b.radius[k] = part * diameters[k] / 2;
     int tries = 0;
     Vec2 r;
     do {
-      if (++tries > kMostTries)
-        throw InputError("scene", 0, "grains.solid_fraction", std::to_string(g.solid_fraction),
-                         "random placement without overlap found no room; lower it (0.5 is safe)");
+      if (++tries > kMostTries) refuse_density(g);
       r = room.random_point(random);
     } while (!room.holds(r, b.radius[k]) || !placement.free(r, b.radius[k], b));
     b.position[k] = r;
     placement.add(r, k);
+  }
+  if (dense) {
+    std::vector<double> radii(n);
+    for (std::size_t k = 0; k < n; ++k) radii[k] = diameters[k] / 2;
+    if (!grow_and_mix({*state.packing.cell, gap}, radii, placement, b, random)) refuse_density(g);
   }
   set_disk_inertia(b);
   if (room.container) add_container(state);

@@ -23,7 +23,7 @@ void prepare_stage(State<Disks>& s, const StageScene& stage) {
 }
 
 void agitate(State<Disks>& s, const StageScene& stage) {
-  if (stage.velocity > 0) draw_velocities(s, stage.velocity * std::sqrt(s.law.attraction * s.law.attraction_range));
+  if (stage.velocity > 0) draw_velocities(s, drawn_speed(s, stage));
 }
 
 bool event_met(const State<Disks>& s, const StageScene&) {

@@ -32,7 +32,7 @@ void set_packing(PackingFile& file, Packing<D> packing, const std::string& path)
   if constexpr (D == 2)
     file.state = foreign_state(std::move(packing));
   else
-    file.packing_3d = std::move(packing);
+    static_cast<Packing<3>&>(file.packing_3d.emplace()) = std::move(packing);
 }
 
 template <int D>

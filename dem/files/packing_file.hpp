@@ -15,7 +15,7 @@ enum class PackingFormat { state, network, dump, csv };
 struct PackingFile {
   PackingFormat format = PackingFormat::state;
   State<Disks> state;                              // of a planar file; of another format than a state: foreign_state()
-  std::optional<Packing<3>> packing_3d;            // of a 3D file; `state` then has no grains
+  std::optional<SpherePacking> packing_3d;         // of a 3D file; `state` then has no grains
   std::optional<State<Spheres>> spheres;           // of a state of spheres, beside packing_3d
   std::optional<State<TriangleGrains>> triangles;  // of a file of triangles; `state` then has no grains
   std::vector<Triangle> corners;                   // of the triangles, anticlockwise: of a network as its file has them

@@ -27,6 +27,12 @@ struct Element {
   using Scalar = T;
   static Shape shape() { return {}; }
 };
+template <class T>
+requires std::is_enum_v<T>
+struct Element<T> {
+  using Scalar = std::underlying_type_t<T>;
+  static Shape shape() { return {}; }
+};
 template <int D>
 struct Element<Vec<D>> {
   using Scalar = double;

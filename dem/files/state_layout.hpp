@@ -1,4 +1,4 @@
-// Format version 4 of a state file, described once: writing and reading both follow transfer(). Io is StateWriter or
+// Format version 6 of a state file, described once: writing and reading both follow transfer(). Io is StateWriter or
 // StateReader of dem/files/state_io.hpp. Structured bindings name every member, so that a new member of State does
 // not compile until it has its place here. Raise kStateFormatVersion and extend docs/formats.md with any change;
 // io.since() says whether a member is there in an older file.

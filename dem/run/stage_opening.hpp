@@ -43,6 +43,7 @@ auto cell_control(const State<System>& s, const StageScene& stage) {
   for (int a = 0; a < System::dimension; ++a)
     c.strain_rate[a] = stage.strain_rates()[static_cast<std::size_t>(a)].value_or(0);
   c.max_strain_rate = stage.max_strain_rate;
+  if (stage.max_edge_speed) c.max_edge_speed = *stage.max_edge_speed;
   // In the order of size: the storage order, which changes in the run, must not show in the last bit after a restart.
   std::vector<double> masses = s.packing.bodies.mass;
   std::sort(masses.begin(), masses.end());

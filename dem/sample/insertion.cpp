@@ -25,7 +25,10 @@ template <int D>
 class Insertion {
  public:
   Insertion(const InsertionScene& scene, std::uint64_t seed)
-      : most_(scene.radius_max), enclosure_(enclosure_of<D>(scene)), random_(seed) {
+      : most_(scene.radius_max),
+        soft_(scene.soft_share > 0 ? scene.soft_radius : 0.0),
+        enclosure_(enclosure_of<D>(scene)),
+        random_(seed) {
     radii_ = listed_radii(scene, D, enclosure_.measure(), random_);
   }
 
@@ -37,7 +40,7 @@ class Insertion {
   }
   std::size_t placed() const { return placed_.radius.size(); }
   double solid_fraction(std::size_t count) const {
-    return volume<D>(grown(enclosure_, placed_, count, most_)) / enclosure_.measure();
+    return volume<D>(grown(enclosure_, placed_, count, most_, soft_)) / enclosure_.measure();
   }
   InsertedGrains<D> result(std::size_t count, bool reached) const {
     const auto end = static_cast<std::ptrdiff_t>(count);
@@ -45,7 +48,9 @@ class Insertion {
     r.enclosure = enclosure_;
     r.position.assign(placed_.position.begin(), placed_.position.begin() + end);
     r.drawn_radius.assign(placed_.radius.begin(), placed_.radius.begin() + end);
-    r.radius = grown(enclosure_, placed_, count, most_);
+    r.radius = grown(enclosure_, placed_, count, most_, soft_);
+    if (soft_ > 0)
+      for (const double drawn : r.drawn_radius) r.soft.push_back(drawn == soft_ ? 1 : 0);
     r.solid_fraction = volume<D>(r.radius) / enclosure_.measure();
     r.trials = trials_, r.reached = reached;
     r.work = {blind_, points_, cells_, radii_.size()};
@@ -53,7 +58,7 @@ class Insertion {
   }
 
  private:
-  double most_;
+  double most_, soft_;
   Enclosure<D> enclosure_;
   Random random_;
   std::vector<double> radii_;
@@ -96,11 +101,17 @@ InsertedGrains<D> reach(Insertion<D>& insertion, double wanted) {
 
 std::vector<double> listed_radii(const InsertionScene& scene, int dimension, double measure, Random& random) {
   const SizeDistribution sizes = scene.sizes();
+  const auto volume_of = [dimension](double r) { return dimension == 2 ? ball_measure<2>(r) : ball_measure<3>(r); };
+  const double listed = scene.volume_factor * measure;
   std::vector<double> radii;
-  for (double sum = 0; sum <= scene.volume_factor * measure;) {
+  for (double sum = 0; sum <= (1 - scene.soft_share) * listed;) {
     radii.push_back(sizes.draw(random));
-    sum += dimension == 2 ? ball_measure<2>(radii.back()) : ball_measure<3>(radii.back());
+    sum += volume_of(radii.back());
   }
+  if (scene.soft_share > 0)
+    radii.insert(radii.end(),
+                 static_cast<std::size_t>(std::ceil(scene.soft_share * listed / volume_of(scene.soft_radius))),
+                 scene.soft_radius);
   std::sort(radii.begin(), radii.end(), std::greater<>());
   return radii;
 }

@@ -27,13 +27,14 @@ struct InsertedGrains {
   std::vector<Vec<D>> position;      // [length] in the shell around the origin, or in [0, L)
   std::vector<double> radius;        // [length] grown, at most radius_max
   std::vector<double> drawn_radius;  // before growth, descending
+  std::vector<std::uint8_t> soft;    // 1 of a soft-particle; empty: none was asked for
   double solid_fraction = 0;         // volume of the grains over that of the room
   double trials = 0;                 // I; with a wanted solid fraction the one that was found
   bool reached = true;               // the wanted solid fraction, to the last grain
   InsertionWork work;
 };
 
-// Radii of the law until their volume exceeds beta times `measure`, descending.
+// Radii of the law until their volume exceeds beta times `measure`, soft-particles' share left to them, descending.
 std::vector<double> listed_radii(const InsertionScene& scene, int dimension, double measure, Random& random);
 
 template <int D>

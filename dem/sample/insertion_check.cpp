@@ -26,11 +26,19 @@ class Rules {
     }
     const bool finite = std::isfinite(s.exponent);
     if (!finite) refuse("exponent", s.exponent, "a finite number");
-    const bool listable = std::isfinite(s.volume_factor) && s.volume_factor >= 1;
-    if (!listable) refuse("volume_factor", s.volume_factor, "at least 1, and finite");
+    // With soft-particles the list is what is wanted: of more than fits, the large grains would leave them no room.
+    const bool listable =
+        std::isfinite(s.volume_factor) && (s.soft_share > 0 ? s.volume_factor > 0 : s.volume_factor >= 1);
+    if (!listable)
+      refuse("volume_factor", s.volume_factor, s.soft_share > 0 ? "above 0, and finite" : "at least 1, and finite");
     if (!(s.trials >= 1 && s.trials <= kMostTrials)) refuse("trials", s.trials, "from 1 to 1e15");
     if (s.solid_fraction && !(*s.solid_fraction > 0 && *s.solid_fraction < 1))
       refuse("solid_fraction", *s.solid_fraction, "between 0 and 1, both excluded");
+    if (!(s.soft_share >= 0 && s.soft_share < 1)) refuse("soft_share", s.soft_share, "at least 0 and below 1");
+    if (s.soft_share > 0 && positive("soft_radius", s.soft_radius) && max && s.soft_radius > s.radius_max)
+      refuse("soft_radius", s.soft_radius, "at most radius_max = " + real_text(s.radius_max), {"radius_max"});
+    if (s.soft_share > 0 && s.radius_min == s.radius_max && s.soft_radius == s.radius_min)
+      refuse("soft_radius", s.soft_radius, "not the radius of all other grains", {"radius_min", "radius_max"});
     const double has = room(max);
     if (ordered && has > 0 && shortest() > kLargestRatio * s.radius_min)
       refuse("radius_min", s.radius_min,

@@ -17,9 +17,12 @@ struct InsertionScene {
   std::array<double, 3> box{{2, 2, 2}};        // [length] edges of the periodic box, in the plane the first two
   double radius_min = 0.05, radius_max = 0.5;  // [length] bounds of the law; Pi = radius_max / radius_min
   double exponent = 3.5;                       // b of N(r) ~ r^-b; 0: uniform
-  double volume_factor = 3;                    // beta >= 1: volume of the listed grains over that of the room
-  double trials = 3e4;                         // I >= 1: random points tried for each grain
-  std::optional<double> solid_fraction;        // reached by the choice of I, in place of `trials`
+  double volume_factor = 3;              // beta: volume of the listed grains over that of the room; from 1 on, but
+                                         // with soft-particles from 0 on
+  double trials = 3e4;                   // I >= 1: random points tried for each grain
+  std::optional<double> solid_fraction;  // reached by the choice of I, in place of `trials`
+  double soft_share = 0;                 // [-] of the listed volume that soft-particles have, all of one radius
+  double soft_radius = 0;                // [length]; they are placed with the others and do not grow
 
   SizeDistribution sizes() const { return {radius_min, radius_max, exponent}; }
 };

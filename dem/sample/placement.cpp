@@ -65,12 +65,15 @@ Placed<D> place(const Enclosure<D>& enclosure, const std::vector<double>& radii,
 }
 
 template <int D>
-std::vector<double> grown(const Enclosure<D>& enclosure, const Placed<D>& placed, std::size_t count, double most) {
+std::vector<double> grown(const Enclosure<D>& enclosure, const Placed<D>& placed, std::size_t count, double most,
+                          double kept) {
   if (count == 0) return {};
   GrainIndex<D> grains(enclosure, placed.radius.front(), tiers_of<D>(placed.radius, count));
   for (std::size_t k = 0; k < count; ++k) grains.add(placed.position[k], placed.radius[k]);
   std::vector<double> radius(count);
   for (std::size_t k = 0; k < count; ++k) {
+    radius[k] = placed.radius[k];
+    if (radius[k] == kept) continue;
     const double alone = std::min(most, enclosure.largest_at(placed.position[k]));
     double free = alone;
     for (double reach = 2 * placed.radius[k];; reach *= 2) {
@@ -88,7 +91,7 @@ std::vector<double> grown(const Enclosure<D>& enclosure, const Placed<D>& placed
 
 template Placed<2> place(const Enclosure<2>&, const std::vector<double>&, double, Random);
 template Placed<3> place(const Enclosure<3>&, const std::vector<double>&, double, Random);
-template std::vector<double> grown(const Enclosure<2>&, const Placed<2>&, std::size_t, double);
-template std::vector<double> grown(const Enclosure<3>&, const Placed<3>&, std::size_t, double);
+template std::vector<double> grown(const Enclosure<2>&, const Placed<2>&, std::size_t, double, double);
+template std::vector<double> grown(const Enclosure<3>&, const Placed<3>&, std::size_t, double, double);
 
 }  // namespace isostat

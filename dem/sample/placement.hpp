@@ -18,8 +18,9 @@ template <int D>
 Placed<D> place(const Enclosure<D>& enclosure, const std::vector<double>& radii, double trials, Random random);
 
 // Radii of the first `count` grains after growth in the order of storage: each to contact with the nearest surface, of
-// a grain or the shell, but not beyond `most`.
+// a grain or the shell, but not beyond `most`. Those of radius `kept` do not grow.
 template <int D>
-std::vector<double> grown(const Enclosure<D>& enclosure, const Placed<D>& placed, std::size_t count, double most);
+std::vector<double> grown(const Enclosure<D>& enclosure, const Placed<D>& placed, std::size_t count, double most,
+                          double kept);
 
 }  // namespace isostat

@@ -19,7 +19,18 @@ class Placement {
     if (frame.periodic) cell_ = PeriodicCell<D>{frame.length};
   }
 
-  bool free(const Vec<D>& r, double radius, const Bodies<D>& bodies) const {
+  static constexpr std::size_t kNobody = static_cast<std::size_t>(-1);
+
+  // Of a body with its centre at r; `except` is the body itself, where it has been placed already.
+  bool free(const Vec<D>& r, double radius, const Bodies<D>& bodies, std::size_t except = kNobody) const {
+    return visit(r, bodies, [&](std::size_t k, double distance) {
+      return k == except || !(distance < radius + bodies.radius[k] + gap_);
+    });
+  }
+
+  // look(k, distance of its centre from r) for the bodies that may be near, until it says false; whether it never did.
+  template <class Look>
+  bool visit(const Vec<D>& r, const Bodies<D>& bodies, Look look) const {
     const std::array<int, D> at = grid_.columns(r);
     std::array<int, D> step;
     step.fill(-1);
@@ -32,7 +43,7 @@ class Placement {
       for (const std::size_t k : members_[grid_.index(column)]) {
         Vec<D> d = bodies.position[k] - r;
         if (cell_) d += cell_->offset(cell_->nearest_image(d));
-        if (norm(d) < radius + bodies.radius[k] + gap_) return false;
+        if (!look(k, norm(d))) return false;
       }
       std::size_t a = 0;
       while (a < D && ++step[a] > 1) step[a++] = -1;
@@ -40,6 +51,7 @@ class Placement {
     }
   }
   void add(const Vec<D>& r, std::size_t k) { members_[grid_.index(r)].push_back(k); }
+  void remove(const Vec<D>& r, std::size_t k) { std::erase(members_[grid_.index(r)], k); }
 
  private:
   std::optional<PeriodicCell<D>> cell_;

@@ -137,11 +137,25 @@ std::vector<SceneKey> common_keys() {
        .systems = of_disks,
        .meaning =
            "Root mean square velocity drawn at the start of the stage, V* = sqrt(F0 D0 / m); 0: velocities are kept."},
+      {.name = "stage.velocity_of",
+       .field = in<&S::stages, &StageScene::velocity_of>,
+       .choices = names(kVelocityOfNames),
+       .systems = of_disks,
+       .meaning =
+           "Whose root mean square stage.velocity is: that of the velocity vector, or of each of its "
+           "components (the standard deviation of a Maxwell distribution), by the root of the dimension faster."},
       {.name = "stage.max_strain_rate",
        .field = in<&S::stages, &StageScene::max_strain_rate>,
        .unit = "1/T0",
        .range = not_negative,
        .meaning = "Cap of the strain rate of the cell; 0: no cap."},
+      {.name = "stage.max_edge_speed",
+       .field = in<&S::stages, &StageScene::max_edge_speed>,
+       .unit = "a/T0",
+       .range = positive,
+       .absent = "no cap",
+       .meaning = "Cap of the speed |dL/dt| of each edge of the cell that a stress controls, besides "
+                  "stage.max_strain_rate."},
       {.name = "stage.normal_stiffness",
        .field = in<&S::stages, &StageScene::normal_stiffness>,
        .unit = "F0/a",

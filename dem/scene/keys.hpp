@@ -18,8 +18,8 @@ namespace isostat {
 // Where the value of a key lives in a scene; the alternative is the type of the key.
 using SceneField =
     std::variant<bool*, int*, std::uint64_t*, double*, std::optional<double>*, std::string*, std::vector<double>*,
-                 Finish*, Until*, Springs*, SceneSystem*, ContainerShape*, ContainerWalls*, Integrator*, Arrangement*,
-                 ContactLaw*, BeamFailure*, NormalForce*, SphereArrangement*>;
+                 Finish*, Until*, Springs*, VelocityOf*, SceneSystem*, ContainerShape*, ContainerWalls*, Integrator*,
+                 Arrangement*, ContactLaw*, BeamFailure*, NormalForce*, SphereArrangement*>;
 
 // Systems that have a key. Keys of one name in two systems are two rows, with defaults and ranges of their own.
 class SystemSet {

@@ -71,6 +71,11 @@ constexpr bool ends_with_event(Until until) {  // of the surroundings
 enum class Springs { keep_forces, keep_elongations };
 inline constexpr std::array<std::string_view, 2> kSpringsNames{"forces", "elongations"};
 
+// Whose root mean square stage.velocity is: |v|, or each component of v (the standard deviation of a Maxwell
+// distribution, sqrt(D) times less than that of |v|).
+enum class VelocityOf { vector, component };
+inline constexpr std::array<std::string_view, 2> kVelocityOfNames{"vector", "component"};
+
 // [finish]: what ends a stage faster than the bare law does; "none" is the paper.
 struct FinishScene {
   Finish method = Finish::none;
@@ -89,12 +94,15 @@ struct StageScene {
   // Of one direction, compression positive [F0/a], [1/T0]; the third in space only.
   std::optional<double> stress_1, stress_2, stress_3;
   std::optional<double> strain_rate_1, strain_rate_2, strain_rate_3;
-  double velocity = 0.0;                   // V0 [V* = sqrt(F0 D0 / m)] rms velocity drawn at the start; 0: keep
+  double velocity = 0.0;  // V0 [V* = sqrt(F0 D0 / m)] rms velocity drawn at the start; 0: keep
+  VelocityOf velocity_of = VelocityOf::vector;
   double max_strain_rate = 0.05;           // [1/T0] cap of the cell's strain rate; 0: no cap
+  std::optional<double> max_edge_speed;    // [a/T0] cap of |Ldot| of each edge that a stress controls; absent: none
   std::optional<double> normal_stiffness;  // K_N [F0/a] that the contacts are brought to; absent: it stays
   double stiffening_time = 200.0;          // [T0] of the exponential change of K_N
   Springs stiffening_keeps = Springs::keep_forces;
   std::optional<double> friction;  // mu of spheres from this stage on; absent: it stays
+  bool stop = false;               // spheres and walls stand still when it begins
   double approach = 0;             // [a/T0] speed of the first soft-particle towards its partner
   Until until = Until::equilibrium;
   double time = 0.0;          // [T0] length of the stage with until = "time"

@@ -49,6 +49,7 @@ const std::vector<UnitWord>& unit_words() {
   static const std::vector<UnitWord> words{{"a", "cm", "a"},
                                            {"T0", "s", "T0"},
                                            {"1/T0", "1/s", "1/T0"},
+                                           {"a/T0", "cm/s", "a/T0"},
                                            {"a/T0^2", "cm/s^2", "a/T0^2"},
                                            {"F0/a", "g/s^2", "F0/a^2"},
                                            {"F1/a", "F1/a", "F1/a^2"}};

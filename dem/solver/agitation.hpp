@@ -11,6 +11,13 @@
 
 namespace isostat {
 
+// The rms of |v| that a stage asks for [a/T0].
+template <class System>
+double drawn_speed(const State<System>& s, const StageScene& stage) {
+  const double speed = stage.velocity * std::sqrt(s.law.attraction * s.law.attraction_range);
+  return stage.velocity_of == VelocityOf::component ? std::sqrt(System::dimension) * speed : speed;
+}
+
 template <class System>
 void draw_velocities(State<System>& s, double rms) {
   constexpr int D = System::dimension;

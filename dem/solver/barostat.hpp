@@ -1,10 +1,11 @@
 // The degrees of freedom of the cell (Gilabert 2007, Eq. 3):  M d2(eps_a)/dt2 = sigma_imposed - sigma_aa, with
-// eps_a' = -L_a' / L0_a, compression positive, L0 the cell at the start of the stage, and a cap on the rate. A
-// direction may have its rate imposed instead.
+// eps_a' = -L_a' / L0_a, compression positive, L0 the cell at the start of the stage, and caps on the rate and on
+// |L_a'|. A direction may have its rate imposed instead.
 #pragma once
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "dem/solver/motion_step.hpp"
 #include "dem/state/state.hpp"
@@ -17,8 +18,9 @@ struct CellControl {
   ImposedStress<D> stress;     // [F0/a]
   Vec<D> strain_rate{};        // [1/T0] imposed along an edge without imposed stress; 0: fixed
   double max_strain_rate = 0;  // [1/T0]; 0: no cap
-  double inertia = 1;          // M [m]
-  bool rate_coupling = false;  // peculiar velocities also feel -(Ldot/L) v
+  double max_edge_speed = std::numeric_limits<double>::infinity();  // [a/T0] of |Ldot| under an imposed stress
+  double inertia = 1;                                               // M [m]
+  bool rate_coupling = false;                                       // peculiar velocities also feel -(Ldot/L) v
   bool moves() const { return largest_stress(stress) || strain_rate != Vec<D>{}; }
 };
 
@@ -42,6 +44,8 @@ CellFlow<D> advance_cell(const CellControl<D>& control, double dt, CellMotion<D>
     if (stress) {
       rate = before + dt * (*stress - motion.stress[a]) / control.inertia;
       if (control.max_strain_rate > 0) rate = std::clamp(rate, -control.max_strain_rate, control.max_strain_rate);
+      const double fastest = control.max_edge_speed / motion.reference_length[a];
+      rate = std::clamp(rate, -fastest, fastest);
     }
     const double ldot = -rate * motion.reference_length[a];
     const double ldot_now = ldot - 0.5 * (rate - before) * motion.reference_length[a];

@@ -111,7 +111,7 @@ void Solver<System>::check_cell() const {
     if (!(std::abs(cell_motion_.strain_rate[a]) * dt_ <= kMostStrain) || !(cell_->length[a] > 0))
       throw RunError(step_, -1,
                      "the cell collapses, L" + std::to_string(a + 1) + " = " + std::to_string(cell_->length[a]),
-                     "set stage.max_strain_rate, raise cell.inertia or lower stage.pressure");
+                     "set stage.max_strain_rate or stage.max_edge_speed, raise cell.inertia or lower stage.pressure");
 }
 
 }  // namespace isostat

@@ -9,9 +9,13 @@
 namespace isostat {
 namespace {
 
-ContactStiffness stiffness_of(const SphereLaw& law, const Packing<3>& packing, const Link<3>& link) {
-  const std::vector<double>& radius = packing.bodies.radius;
-  return pair_stiffness(law, radius[static_cast<std::size_t>(link.i)], radius[static_cast<std::size_t>(link.j)]);
+ContactStiffness stiffness_of(const SphereLaw& law, const SpherePacking& packing, const Link<3>& link) {
+  return pair_stiffness(law, body_of(packing, link.i), body_of(packing, link.j));
+}
+
+double wall_margin(const SphereLaw& law, const SphereBody& body, const WallLink& link) {
+  const double friction = wall_stiffness(law, body).friction;
+  return yield_margin(friction, friction * link.normal_force, norm(link.tangential_force));
 }
 
 }  // namespace
@@ -51,8 +55,7 @@ Certificate evaluate_certificate(const SpherePacking& packing, const SphereLaw& 
   for (const Link<3>& link : packing.links)
     if (is_contact(link.kind))
       count(yield_margin(law, stiffness_of(law, packing, link), link.gap, link.tangential_force, link.moment));
-  for (const WallLink& link : packing.wall_links)
-    count({yield_margin(law.wall_friction, law.wall_friction * link.normal_force, norm(link.tangential_force)), 1.0});
+  for (const WallLink& link : packing.wall_links) count({wall_margin(law, body_of(packing, link.body), link), 1.0});
 
   const std::vector<BodyLoad3> loads = net_loads(packing);
   double largest_force = 0, largest_moment = 0, energy = 0;

@@ -34,11 +34,12 @@ void check_insertion(const Scene& scene, std::vector<SceneConflict>& found) {
   const SphereGrainsScene& g = scene.sphere_grains;
   if (!g.file.empty() || g.arrangement == SphereArrangement::random || g.diameter_min > g.diameter_max) return;
   for (const SceneConflict& c : insertion_conflicts(insertion_of(g), 3))
-    found.push_back({"grains.arrangement",
-                     c.key + " = " + c.value,
-                     c.rule,
-                     {"grains.arrangement", "grains.diameter_min", "grains.diameter_max", "grains.exponent",
-                      "grains.edge", "grains.shell_radius", "grains.volume_factor", "grains.trials"}});
+    found.push_back(
+        {c.key == "insertion.volume_factor" ? "grains.volume_factor" : "grains.arrangement",
+         c.key + " = " + c.value,
+         c.rule,
+         {"grains.arrangement", "grains.diameter_min", "grains.diameter_max", "grains.exponent", "grains.edge",
+          "grains.shell_radius", "grains.volume_factor", "grains.trials", "grains.soft_share", "grains.soft_radius"}});
   if (g.arrangement == SphereArrangement::insertion) return;
   for (std::size_t i = 0; i < scene.stages.size(); ++i)
     for (const std::string& key : cell_keys(scene.stages[i], i))
@@ -75,7 +76,13 @@ void check_step(const Scene& scene, std::vector<SceneConflict>& found) {
   SphereLawScene stiffest = scene.sphere_law;
   for (const StageScene& s : scene.stages) stiffest.friction = std::max(stiffest.friction, s.friction.value_or(0));
   const SphereLaw law = resolve(stiffest);
-  const double bound = critical_fraction(law, g.file.empty() ? g.diameter_min / 2 : 0.5, g.density);
+  const double radius = g.file.empty() ? g.diameter_min / 2 : 0.5;
+  double bound = critical_fraction(law, radius, g.density);
+  if (g.second_share > 0) {
+    SphereLaw second = law;
+    second.grain = resolve(g, stiffest).second;
+    bound = std::min(bound, critical_fraction(second, radius, g.density));
+  }
   if (scene.step.fraction >= bound)
     found.push_back({"step.fraction",
                      real_text(scene.step.fraction),
@@ -105,6 +112,40 @@ void check_stages(const Scene& scene, std::vector<SceneConflict>& found) {
   }
 }
 
+std::string list_text(const std::vector<double>& x) {
+  std::string text = "[";
+  for (const double v : x) text += (text.size() > 1 ? ", " : "") + real_text(v);
+  return text + "]";
+}
+bool is_law(const std::vector<double>& x) {
+  return x.size() == 6 && x[0] > 0 && x[1] >= 1 && x[2] <= 0 && x[3] >= 0 && x[4] > 0 && x[5] >= 0;
+}
+
+// Several materials, and soft-particles.
+void check_kinds(const Scene& scene, std::vector<SceneConflict>& found) {
+  const SphereGrainsScene& g = scene.sphere_grains;
+  const SphereLawScene& law = scene.sphere_law;
+  const bool soft = g.soft_share > 0 && g.file.empty();
+  const std::string rule =
+      "six numbers: force > 0, exponent >= 1, offset <= 0, tangential >= 0, tangential exponent > "
+      "0, friction >= 0";
+  const auto check_law = [&](const std::string& key, const std::vector<double>& x) {
+    if (!is_law(x)) found.push_back({key, list_text(x), rule, {key}});
+  };
+  if (soft || !g.file.empty()) check_law("law.soft_solid", law.soft_solid), check_law("law.soft_soft", law.soft_soft);
+  if (!(g.second_share > 0) && !soft) return;
+  const std::string of = g.second_share > 0 ? "grains.second_share" : "grains.soft_share";
+  const auto refuse = [&](const std::string& key, const std::string& value, const std::string& wanted) {
+    found.push_back({key, value, wanted, {key, of}});
+  };
+  const std::string because = ", since " + of + " > 0";
+  if (law.normal != NormalForce::hertz) refuse("law.normal", quoted_text("linear"), "\"hertz\"" + because);
+  if (law.attraction > 0) refuse("law.attraction", real_text(law.attraction), "0" + because);
+  if (law.rolling) refuse("law.rolling", "true", "false" + because);
+  if (soft && !(g.soft_radius > 0))
+    refuse("grains.soft_radius", real_text(g.soft_radius), "greater than 0, since grains.soft_share > 0");
+}
+
 // What spheres cannot do.
 void check_limits(const Scene& scene, std::vector<SceneConflict>& found) {
   if (scene.container.shape != ContainerShape::none)
@@ -130,6 +171,7 @@ std::vector<SceneConflict> sphere_conflicts(const Scene& scene) {
   check_stiffness(scene, found);
   check_step(scene, found);
   check_stages(scene, found);
+  check_kinds(scene, found);
   check_limits(scene, found);
   return found;
 }

@@ -23,7 +23,7 @@ void SphereEngine::choose_kernels() {
   using spheres::Tally;
   const bool rolls = law_.rolling_friction > 0;
   rotates_ = law_.friction > 0 || rolls || (law_.wall_friction > 0 && !walls_.empty());
-  force_kernel_ = spheres::select_kernel(law_, free_cell_ ? Tally::stress : Tally::nothing, isa_);
+  force_kernel_ = spheres::select_kernel(law_, free_cell_ ? Tally::stress : Tally::nothing, isa_, unlike_);
   motion_kernel_ = select_motion({rotates_, free_cell_, rolls}, isa_);
 }
 
@@ -81,11 +81,11 @@ double SphereEngine::stiffest_contact() const {
     const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
     Vec3 r = position[b] - position[a];
     if (lists_.inner_cell()) r += lists_.inner_cell()->offset(image_shift<3>(shift));
-    const double sum = bodies_.radius(a) + bodies_.radius(b);
-    if (!(dot(r, r) < sum * sum)) return;
+    const double gap = facing(r, bodies_.body(a), bodies_.body(b)).gap;
+    if (!(gap < 0)) return;
     const double lighter = std::max(bodies_.constants[a].inverse_mass, bodies_.constants[b].inverse_mass);
-    const ContactStiffness c = pair_stiffness(law_, bodies_.radius(a), bodies_.radius(b));
-    stiffest = std::max(stiffest, lighter * normal_stiffness(law_, c, norm(r) - sum));
+    const ContactStiffness c = pair_stiffness(law_, bodies_.body(a), bodies_.body(b));
+    stiffest = std::max(stiffest, lighter * normal_stiffness(law_, c, gap));
   });
   return stiffest;
 }
@@ -130,8 +130,9 @@ void SphereEngine::add_wall_loads(double time_step) {
       const double* row = bodies_.row(k);
       const WallMotion motion{triple_at(row + Slot::half_velocity), triple_at(row + Slot::half_surface),
                               triple_at(row + Slot::velocity), triple_at(row + Slot::surface)};
-      const WallLoad add = wall_load(wall_law, walls_[static_cast<std::size_t>(near.wall)], bodies_.constants[k],
-                                     bodies_.position(k), motion, time_step, near.tangential_force);
+      const WallLoad add =
+          wall_load(wall_law, walls_[static_cast<std::size_t>(near.wall)], bodies_.body(k), bodies_.constants[k].mass,
+                    bodies_.position(k), motion, time_step, near.tangential_force);
       if (!add.touches) continue;
       double* load = bodies_.load(k);
       put_triple(load + LoadSlot::force, bodies_.force(k) + add.force);
@@ -183,7 +184,7 @@ void SphereEngine::check_bodies(std::int64_t step) const {
 void SphereEngine::check_overlaps(const Cell& cell, std::int64_t step) const {
   lists_.for_each([&](std::size_t, std::int32_t i, std::int32_t j, std::uint8_t shift) {
     const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
-    const double sum = bodies_.radius(a) + bodies_.radius(b), distance = norm(branch(i, j, shift, cell));
+    const double sum = bodies_.signed_radius(a) + bodies_.signed_radius(b), distance = norm(branch(i, j, shift, cell));
     if (distance < (1 - kMostOverlap) * sum)
       throw RunError(
           step, bodies_.id[a],

@@ -91,7 +91,7 @@ class SphereEngine {
   SphereLaw law_;
   double dt_ = 0, gravity_ = 0;  // [T0], [a/T0^2]
   Isa isa_;
-  bool begins_, free_cell_, has_groups_, rotates_ = false;
+  bool begins_, free_cell_, has_groups_, unlike_, rotates_ = false;
   spheres::PairForceKernel force_kernel_ = nullptr;
   SphereMotionKernel motion_kernel_ = nullptr, next_motion_kernel_ = nullptr;  // the next one differs after a restart
   Team team_;

@@ -17,8 +17,10 @@ SphereEngine::SphereEngine(const State<Spheres>& state, const CellControl<3>& co
       begins_(state.memory.half_velocity.empty()),
       free_cell_(control.moves()),
       has_groups_(!state.packing.group.empty()),
+      unlike_(!state.packing.kind.empty()),
       team_(std::min(options.threads, Lists::chunk_count(state.packing.bodies.size()))),
-      lists_(state.packing.bodies.size(), law_.attraction > 0 ? law_.attraction_range : 0.0, SpherePairs(law_)),
+      lists_(state.packing.bodies.size(), law_.attraction > 0 ? law_.attraction_range : 0.0,
+             SpherePairs(law_, unlike_)),
       walls_(state.packing.walls) {
   if (options.energies) throw InputError("scene", 0, "output.energies", "true", "there is no energy ledger of spheres");
   if (!state.packing.part.empty())
@@ -37,6 +39,7 @@ void SphereEngine::load_bodies(const State<Spheres>& state) {
   const SphereMemory& m = state.memory;
   bodies_.resize(b.size());
   if (has_groups_) bodies_.group = state.packing.group;
+  if (unlike_) bodies_.kind = state.packing.kind;
   smallest_diameter_ = INFINITY;
   for (std::size_t k = 0; k < b.size(); ++k) {
     double* row = bodies_.row(k);
@@ -48,8 +51,8 @@ void SphereEngine::load_bodies(const State<Spheres>& state) {
     put_triple(row + Slot::surface, b.radius[k] * b.spin[k]);
     bodies_.set_half_velocity(k, begins_ ? b.velocity[k] : m.half_velocity[k]);
     bodies_.set_half_spin(k, begins_ ? b.spin[k] : m.half_spin[k]);
-    smallest_diameter_ = std::min(smallest_diameter_, 2 * b.radius[k]);
-    largest_diameter_ = std::max(largest_diameter_, 2 * b.radius[k]);
+    smallest_diameter_ = std::min(smallest_diameter_, 2 * bodies_.radius(k));
+    largest_diameter_ = std::max(largest_diameter_, 2 * bodies_.radius(k));
     if (begins_) {
       bodies_.load(k)[LoadSlot::force + 2] = -(b.mass[k] * gravity_) + 0.0;
     } else {
@@ -94,7 +97,7 @@ void SphereEngine::find_near_walls() {
   for (int chunk = 0; chunk < lists_.chunks(); ++chunk) {
     for (std::size_t k = lists_.chunk_begin(chunk); k < lists_.chunk_begin(chunk + 1); ++k)
       for (std::size_t w = 0; w < walls_.size(); ++w) {
-        if (!acts_on(walls_[w], bodies_.group[k])) continue;
+        if (!acts_on(walls_[w], bodies_.group[k], bodies_.kind[k])) continue;
         const double gap = wall_frame(walls_[w], bodies_.position(k)).distance - bodies_.radius(k);
         if (gap > lists_.inner_skin()) continue;
         const NearWall found{static_cast<std::int32_t>(k), static_cast<std::int32_t>(w), {}};

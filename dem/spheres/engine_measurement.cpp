@@ -28,20 +28,20 @@ class Rotation {
 
 Vec3 SphereEngine::force_at_rest(std::size_t place, std::int32_t i, std::int32_t j, std::uint8_t shift) const {
   const Vec3 r = branch(i, j, shift, cell_);
-  const double radius_i = bodies_.radius(static_cast<std::size_t>(i));
-  const double radius_j = bodies_.radius(static_cast<std::size_t>(j));
-  const double distance = norm(r), gap = distance - (radius_i + radius_j);
-  const double normal = at_rest(law_, pair_stiffness(law_, radius_i, radius_j), gap).force;
-  if (!(gap < 0)) return (normal / distance) * r;
-  return (normal / distance) * r + lists_.columns().history(place).tangential_force;
+  const SphereBody a = bodies_.body(static_cast<std::size_t>(i)), b = bodies_.body(static_cast<std::size_t>(j));
+  const Facing at = facing(r, a, b);
+  if (!unlike_ && !(at.gap < 0) && !(law_.attraction > 0)) return {};
+  const Vec3 normal = at_rest(law_, pair_stiffness(law_, a, b), at.gap).force * at.n;
+  return at.gap < 0 ? normal + lists_.columns().history(place).tangential_force : normal;
 }
 
 Vec3 SphereEngine::wall_force_at_rest(const NearWall& near) const {
   const auto k = static_cast<std::size_t>(near.body);
-  const WallFrame frame = wall_frame(walls_[static_cast<std::size_t>(near.wall)], bodies_.position(k));
-  const double radius = bodies_.radius(k), gap = frame.distance - radius;
+  const SphereWall& wall = walls_[static_cast<std::size_t>(near.wall)];
+  const WallFrame frame = wall_frame(wall, bodies_.position(k));
+  const double gap = frame.distance - bodies_.radius(k);
   if (!(gap < 0)) return {};
-  return repulsion(law_, wall_stiffness(law_, radius), gap) * frame.n + near.tangential_force;
+  return repulsion(law_, wall_stiffness(law_, bodies_.body(k), wall), gap) * frame.n + near.tangential_force;
 }
 
 Vec3 SphereEngine::force_on_wall(std::size_t wall) const {
@@ -97,14 +97,14 @@ void SphereEngine::stretch_springs_out_of(std::int32_t group, Stretched&& stretc
     const bool i_turns = bodies_.group[a] == group, j_turns = bodies_.group[b] == group;
     if (i_turns == j_turns || !(law_.friction > 0)) return;
     const Vec3 r = branch(i, j, shift, cell_);
-    const double radius_i = bodies_.radius(a), radius_j = bodies_.radius(b), distance = norm(r);
-    const double gap = distance - (radius_i + radius_j);
-    if (!(gap < 0)) return;
-    const Vec3 n = r / distance, contact = bodies_.position(a) + (radius_i / (radius_i + radius_j)) * r;
-    const double stiffness = tangential_stiffness(law_, pair_stiffness(law_, radius_i, radius_j), gap);
+    const SphereBody body_i = bodies_.body(a), body_j = bodies_.body(b);
+    const Facing at = facing(r, body_i, body_j);
+    if (!(at.gap < 0)) return;
+    const Vec3 contact = bodies_.position(a) + (body_i.radius / (body_i.radius + body_j.radius)) * r;
+    const double stiffness = tangential_stiffness(law_, pair_stiffness(law_, body_i, body_j), at.gap);
     SphereHistory h = pairs.history(k);
     const double side = j_turns ? 1 : -1;  // springs are those on j
-    h.tangential_force = side * stretched(side * h.tangential_force, n, contact, stiffness);
+    h.tangential_force = side * stretched(side * h.tangential_force, at.n, contact, stiffness);
     pairs.remember(k, h);
   });
   for (NearWall& near : bodies_.near_walls) {
@@ -112,10 +112,10 @@ void SphereEngine::stretch_springs_out_of(std::int32_t group, Stretched&& stretc
     const SphereWall& wall = walls_[static_cast<std::size_t>(near.wall)];
     if (bodies_.group[k] != group || wall.group == group || !(law_.wall_friction > 0)) continue;
     const WallFrame frame = wall_frame(wall, bodies_.position(k));
-    const double radius = bodies_.radius(k), gap = frame.distance - radius;
+    const double gap = frame.distance - bodies_.radius(k);
     if (!(gap < 0)) continue;
     near.tangential_force = stretched(near.tangential_force, frame.n, bodies_.position(k) - frame.distance * frame.n,
-                                      tangential_stiffness(law_, wall_stiffness(law_, radius), gap));
+                                      tangential_stiffness(law_, wall_stiffness(law_, bodies_.body(k), wall), gap));
   }
 }
 

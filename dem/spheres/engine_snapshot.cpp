@@ -21,6 +21,8 @@ void SphereEngine::snapshot_bodies(State<Spheres>& s) const {
   m.half_velocity.resize(n), m.half_spin.resize(n), m.force.resize(n), m.torque.resize(n);
   s.packing.group.clear();
   if (has_groups_) s.packing.group = bodies_.group;
+  s.packing.kind.clear();
+  if (unlike_) s.packing.kind = bodies_.kind;
   for (std::size_t k = 0; k < n; ++k) {
     const SphereConstants& c = bodies_.constants[k];
     b.id[k] = bodies_.id[k];
@@ -36,13 +38,13 @@ void SphereEngine::snapshot_bodies(State<Spheres>& s) const {
 void SphereEngine::snapshot_links(State<Spheres>& s) const {
   s.packing.links.clear();
   lists_.for_each([&](std::size_t k, std::int32_t i, std::int32_t j, std::uint8_t shift) {
-    const double radius_i = bodies_.radius(static_cast<std::size_t>(i));
-    const double radius_j = bodies_.radius(static_cast<std::size_t>(j));
-    const double gap = norm(branch(i, j, shift, s.packing.cell)) - (radius_i + radius_j);
-    const bool touches = gap < 0;
-    if (!touches && !(law_.attraction > 0 && gap < law_.attraction_range)) return;
-    const SphereHistory springs = touches ? lists_.columns().history(k) : SphereHistory{};
-    const ContactStiffness c = pair_stiffness(law_, radius_i, radius_j);
+    const SphereBody a = bodies_.body(static_cast<std::size_t>(i)), b = bodies_.body(static_cast<std::size_t>(j));
+    const double gap = facing(branch(i, j, shift, s.packing.cell), a, b).gap;
+    if (!(gap < 0) && !(law_.attraction > 0 && gap < law_.attraction_range)) return;
+    const ContactStiffness c = pair_stiffness(law_, a, b);
+    const bool contact = touches(c, gap);
+    if (gap < 0 && !contact) return;
+    const SphereHistory springs = contact ? lists_.columns().history(k) : SphereHistory{};
     Link<3> link;
     link.i = i, link.j = j, link.shift = image_shift<3>(shift), link.gap = gap;
     link.normal_force = at_rest(law_, c, gap).force;
@@ -61,8 +63,8 @@ void SphereEngine::snapshot_walls(State<Spheres>& s) const {
     const WallFrame frame = wall_frame(walls_[static_cast<std::size_t>(near.wall)], bodies_.position(k));
     const double gap = frame.distance - bodies_.radius(k);
     if (near.tangential_force != Vec3{}) s.memory.wall_springs.push_back({near.body, near.wall, near.tangential_force});
-    if (!(gap < 0)) continue;
-    const ContactStiffness c = wall_stiffness(law_, bodies_.radius(k));
+    const ContactStiffness c = wall_stiffness(law_, bodies_.body(k), walls_[static_cast<std::size_t>(near.wall)]);
+    if (!touches(c, gap)) continue;
     s.packing.wall_links.push_back({near.body, near.wall, wall_kind_of(law_, c, gap, near.tangential_force), gap,
                                     repulsion(law_, c, gap), near.tangential_force});
   }

@@ -29,11 +29,17 @@ CanonicalLink canonical(const Link<3>& l, const std::vector<std::int64_t>& id) {
 }
 
 void add_law(Digest& digest, const SphereLaw& law) {
-  const auto& [normal, grain, wall, kn, kt, zeta, zeta_t, mu, mu_w, mu_r, kr, f0, d0] = law;
+  const auto& [normal, grain, wall, second, soft_solid, soft_soft, curvature, kn, kt, zeta, zeta_t, mu, mu_w, mu_r, kr,
+               f0, d0] = law;
   digest.add(static_cast<std::int64_t>(normal));
   for (const double x :
        {grain.modulus, grain.poisson, wall.modulus, wall.poisson, kn, kt, zeta, zeta_t, mu, mu_w, mu_r, kr, f0, d0})
     digest.add(x);
+  if (second == SphereMaterial{} && soft_solid == SoftParticleLaw{} && soft_soft == SoftParticleLaw{}) return;
+  digest.add(second.modulus), digest.add(second.poisson), digest.add(curvature);
+  for (const SoftParticleLaw& s : {soft_solid, soft_soft})
+    for (const double x : {s.force, s.exponent, s.offset, s.tangential, s.tangential_exponent, s.friction})
+      digest.add(x);
 }
 
 void add_links(Digest& digest, const SpherePacking& packing) {
@@ -90,6 +96,7 @@ std::string physical_hash(const State<Spheres>& state) {
     digest.add(b.position[k]), digest.add(b.velocity[k]), digest.add(b.spin[k]);
     for (const double x : {b.radius[k], b.mass[k], b.inertia[k]}) digest.add(x);
     if (!state.packing.group.empty()) digest.add(std::int64_t{state.packing.group[k]});
+    if (!state.packing.kind.empty()) digest.add(static_cast<std::int64_t>(state.packing.kind[k]));
   }
   add_links(digest, state.packing);
   add_walls(digest, state.packing);

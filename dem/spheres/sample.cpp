@@ -19,6 +19,7 @@
 namespace isostat {
 namespace {
 
+constexpr std::uint64_t kMaterialStream = std::uint64_t{1} << 48;
 constexpr int kMostTries = 20000;            // per sphere
 constexpr double kMostOverlapAtStart = 0.3;  // [R_i + R_j] beyond, Hertz's law says nothing
 
@@ -26,16 +27,37 @@ State<Spheres> without_bodies(const Scene& scene, std::uint64_t seed) {
   State<Spheres> state;
   state.scene = scene;
   state.seed = seed;
-  state.law = resolve(scene.sphere_law);
+  state.law = resolve(scene.sphere_grains, scene.sphere_law);
   return state;
 }
 
 double smallest_radius(const Bodies<3>& b) { return *std::min_element(b.radius.begin(), b.radius.end()); }
 
+SphereDensities densities_of(const SphereGrainsScene& g) {
+  return {g.density, g.second_density.value_or(g.density), g.soft_density.value_or(0.7 * g.density)};
+}
+
 void set_time_step(State<Spheres>& s) {
-  const double density = s.scene.sphere_grains.density;
-  s.time_step = s.scene.step.fraction * contact_time(s.law, smallest_radius(s.packing.bodies), density);
+  s.time_step = s.scene.step.fraction * shortest_contact_time(s.scene, smallest_radius(s.packing.bodies));
   if (s.packing.cell) s.cell_motion.reference_length = s.packing.cell->length;
+}
+
+// Which grains are of the second material: draws of a stream of their own.
+void draw_materials(State<Spheres>& s) {
+  const double share = s.scene.sphere_grains.second_share;
+  if (!(share > 0)) return;
+  SpherePacking& p = s.packing;
+  p.kind.resize(p.bodies.size(), SphereKind::grain);
+  Random random(s.seed + kMaterialStream);
+  for (SphereKind& kind : p.kind)
+    if (random.uniform() < share && kind == SphereKind::grain) kind = SphereKind::second;
+}
+
+// What follows from radii and kinds.
+void complete(State<Spheres>& s) {
+  draw_materials(s);
+  set_sphere_inertia(s.packing, densities_of(s.scene.sphere_grains));
+  set_time_step(s);
 }
 
 // What a scene asks of the cell, of a file that has none.
@@ -54,11 +76,13 @@ State<Spheres> state_from_file(const Scene& scene, std::uint64_t seed) {
   if (!file.packing_3d) throw InputError(path, 0, "grains.file", path, "a packing of spheres, in space, is wanted");
   State<Spheres> state = without_bodies(scene, seed);
   static_cast<Packing<3>&>(state.packing) = std::move(*file.packing_3d);
+  state.packing.kind = std::move(file.packing_3d->kind);
+  if (state.packing.kind.empty()) state.law = without_unlike(state.law);
   Packing<3>& packing = state.packing;
   if (packing.bodies.size() == 0) throw InputError(path, 0, "grains.file", path, "it holds no grain");
   if (!packing.cell) refuse_without_cell(scene, path);
   if (!file.links_given) packing.links.clear();
-  set_sphere_inertia(packing.bodies, scene.sphere_grains.density);
+  set_sphere_inertia(state.packing, densities_of(scene.sphere_grains));
   const Bodies<3>& b = packing.bodies;
   for (const Link<3>& l : touching_links(packing, 0.0)) {
     const auto i = static_cast<std::size_t>(l.i), j = static_cast<std::size_t>(l.j);
@@ -71,16 +95,13 @@ State<Spheres> state_from_file(const Scene& scene, std::uint64_t seed) {
   return state;
 }
 
-void add_grains(SpherePacking& p, const InsertedGrains<3>& grains, const Vec3& at, std::int32_t group) {
-  Bodies<3>& b = p.bodies;
-  const std::size_t before = b.size();
-  b.resize(before + grains.radius.size());
-  p.group.resize(b.size(), group);
-  for (std::size_t k = before; k < b.size(); ++k) {
-    b.id[k] = static_cast<std::int64_t>(k);
-    b.position[k] = at + grains.position[k - before];
-    b.radius[k] = grains.radius[k - before];
-  }
+InsertedGrains<3> inserted(const InsertionScene& insertion, std::uint64_t seed) {
+  InsertedGrains<3> grains = insert_grains<3>(insertion, seed);
+  if (!grains.reached)
+    throw InputError("scene", 0, "grains.inserted_fraction", real_text(*insertion.solid_fraction),
+                     "a million trials a grain reach only " + real_text(grains.solid_fraction) +
+                         ": raise grains.volume_factor, or lower grains.diameter_min");
+  return grains;
 }
 
 State<Spheres> inserted_spheres(const Scene& scene, std::uint64_t seed) {
@@ -93,21 +114,20 @@ State<Spheres> inserted_spheres(const Scene& scene, std::uint64_t seed) {
       throw std::logic_error("inserted_spheres: grains.arrangement");
     case SphereArrangement::insertion:
       p.cell = PeriodicCell<3>{{{g.edge, g.edge, g.edge}}};
-      add_grains(p, insert_grains<3>(insertion, seed), {}, 0);
+      add_grains(p, inserted(insertion, seed), {}, 0);
       p.group.clear();
       break;
     case SphereArrangement::soft_wall:
-      add_soft_particle(p, insert_grains<3>(insertion, seed), {}, kFirstSoft);
+      add_soft_particle(p, inserted(insertion, seed), {}, kFirstSoft);
       p.walls.push_back(soft_partner_wall(g.shell_radius));
       break;
     case SphereArrangement::soft_pair:
-      add_soft_particle(p, insert_grains<3>(insertion, seed), {}, kFirstSoft);
-      add_soft_particle(p, insert_grains<3>(insertion, seed + kSecondStream), (2 * g.shell_radius) * kSoftApproach,
+      add_soft_particle(p, inserted(insertion, seed), {}, kFirstSoft);
+      add_soft_particle(p, inserted(insertion, seed + kSecondStream), (2 * g.shell_radius) * kSoftApproach,
                         kSecondSoft);
       break;
   }
-  set_sphere_inertia(p.bodies, g.density);
-  set_time_step(state);
+  complete(state);
   return state;
 }
 
@@ -120,7 +140,23 @@ InsertionScene insertion_of(const SphereGrainsScene& g) {
   i.box = {g.edge, g.edge, g.edge};
   i.radius_min = g.diameter_min / 2, i.radius_max = g.diameter_max / 2, i.exponent = g.exponent.value_or(0);
   i.volume_factor = g.volume_factor, i.trials = g.trials;
+  i.solid_fraction = g.inserted_fraction;
+  i.soft_share = g.soft_share, i.soft_radius = g.soft_radius;
   return i;
+}
+
+void add_grains(SpherePacking& p, const InsertedGrains<3>& grains, const Vec3& at, std::int32_t group) {
+  Bodies<3>& b = p.bodies;
+  const std::size_t before = b.size();
+  b.resize(before + grains.radius.size());
+  p.group.resize(b.size(), group);
+  if (!grains.soft.empty() || !p.kind.empty()) p.kind.resize(b.size(), SphereKind::grain);
+  for (std::size_t k = before; k < b.size(); ++k) {
+    b.id[k] = static_cast<std::int64_t>(k);
+    b.position[k] = at + grains.position[k - before];
+    b.radius[k] = grains.radius[k - before];
+    if (!grains.soft.empty() && grains.soft[k - before] == 1) p.kind[k] = SphereKind::soft;
+  }
 }
 
 void add_soft_particle(SpherePacking& p, const InsertedGrains<3>& grains, const Vec3& centre, std::int32_t group) {
@@ -145,20 +181,37 @@ void set_sphere_inertia(Bodies<3>& b, double density) {
   }
 }
 
+void set_sphere_inertia(SpherePacking& p, const SphereDensities& densities) {
+  set_sphere_inertia(p.bodies, densities.grain);
+  for (std::size_t k = 0; k < p.kind.size(); ++k) {
+    if (p.kind[k] == SphereKind::grain) continue;
+    const double ratio = (p.kind[k] == SphereKind::second ? densities.second : densities.soft) / densities.grain;
+    p.bodies.mass[k] *= ratio, p.bodies.inertia[k] *= ratio;
+  }
+}
+
 State<Spheres> initial_spheres(const Scene& scene, std::uint64_t seed) {
   const SphereGrainsScene& g = scene.sphere_grains;
   if (!g.file.empty()) return state_from_file(scene, seed);
   if (g.arrangement != SphereArrangement::random) return inserted_spheres(scene, seed);
   State<Spheres> state = without_bodies(scene, seed);
   Random random(seed);
-  const auto n = static_cast<std::size_t>(g.count);
-  std::vector<double> diameters(n);
+  std::vector<double> diameters(static_cast<std::size_t>(g.count));
   double volume = 0;
   const SizeDistribution sizes{g.diameter_min, g.diameter_max, g.exponent.value_or(0)};
   for (double& d : diameters) {
     d = sizes.draw(random);
     volume += std::numbers::pi / 6 * (d * d * d);
   }
+  if (g.soft_share > 0) {
+    const double one = 4 * std::numbers::pi / 3 * (g.soft_radius * g.soft_radius * g.soft_radius);
+    const double softs = std::ceil(g.soft_share / (1 - g.soft_share) * volume / one);
+    state.packing.kind.assign(diameters.size(), SphereKind::grain);
+    diameters.resize(diameters.size() + static_cast<std::size_t>(softs), 2 * g.soft_radius);
+    state.packing.kind.resize(diameters.size(), SphereKind::soft);
+    volume += softs * one;
+  }
+  const std::size_t n = diameters.size();
   const double edge = std::cbrt(volume / g.solid_fraction);
   state.packing.cell = PeriodicCell<3>{{{edge, edge, edge}}};
 
@@ -184,8 +237,7 @@ State<Spheres> initial_spheres(const Scene& scene, std::uint64_t seed) {
     b.position[k] = r;
     placement.add(r, k);
   }
-  set_sphere_inertia(b, g.density);
-  set_time_step(state);
+  complete(state);
   state.random_counter = random.counter();
   return state;
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace isostat {
 
@@ -22,12 +23,18 @@ struct SphereGrainsScene {
   double shell_radius = 1;   // R_s [a] of a soft-particle
   double volume_factor = 3;  // beta: volume of the listed grains over that of the room, by insertion
   double trials = 3e4;       // I: random points tried for each grain, by insertion
+  std::optional<double> inserted_fraction;  // [-] reached by the choice of I, by insertion
   int count = 1000;
   double solid_fraction = 0.3;            // [-] Phi_I
   double diameter_min = 0.5;              // [a]
   double diameter_max = 1.0;              // [a]
   std::optional<double> exponent;         // b of N(r) ~ r^-b; absent: uniform between the two diameters
   double density = 6 / std::numbers::pi;  // [m/a^3] a sphere of diameter a has the mass m
+  double second_share = 0;                // of the grains, by number, are of the second material
+  std::optional<double> second_density;   // [m/a^3] of them; absent: density
+  double soft_share = 0;                  // of the volume belongs to soft-particles
+  double soft_radius = 0;                 // R_s [a] of theirs
+  std::optional<double> soft_density;     // [m/a^3] of what one holds over the volume of its shell; absent: .7 density
   std::string file;                       // a state or .net file to start from instead; empty: random
   friend bool operator==(const SphereGrainsScene&, const SphereGrainsScene&) = default;
 };
@@ -50,6 +57,13 @@ struct SphereLawScene {
   std::optional<double> rolling_stiffness;     // K_r [F0 a], default 1e-4 a^2 K_N
   double attraction = 0.0;                     // F0 [F0]; 0: no cohesion
   double attraction_range = 1e-3;              // D0 [a]
+  std::optional<double> wall_modulus, wall_poisson, wall_friction;  // of walls; absent: as of the grains
+  std::optional<double> second_modulus, second_poisson;             // of the second material; absent: the first's
+  // Of soft-particles, the numbers of SoftParticleLaw in their order. By default seed 000's Tables 1 and 2 over E R_s^2
+  // and E R_s, with the friction that we measured (docs/measured/spheres.md).
+  std::vector<double> soft_solid{0.5755, 2.799, -2.734e-4, 0.3312, 2.100, 0.18};
+  std::vector<double> soft_soft{0.2228, 5.003, -1.56e-5, 0.4396, 4.422, 0.44};
+  double soft_curvature = 0;
   friend bool operator==(const SphereLawScene&, const SphereLawScene&) = default;
 };
 

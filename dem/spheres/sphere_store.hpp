@@ -3,10 +3,12 @@
 // each group of a phase, because threads add to their loads at the same time.
 #pragma once
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "dem/solver/aligned.hpp"
+#include "dem/spheres/at_rest.hpp"
 #include "dem/spheres/kernel/row.hpp"
 #include "geometry/vec.hpp"
 
@@ -14,7 +16,7 @@ namespace isostat {
 
 struct SphereConstants {
   double inverse_mass, inverse_inertia;  // [1/m], [1/(m a^2)]
-  double radius;                         // [a]
+  double radius;                         // [a] of a shell below zero
   double mass;                           // [m]
 };
 
@@ -30,6 +32,7 @@ inline void put_triple(double* p, const Vec3& v) { p[0] = v[0], p[1] = v[1], p[2
 struct SphereStore {
   std::vector<std::int64_t> id;
   std::vector<std::int32_t> group;
+  std::vector<SphereKind> kind;
   AlignedVector<double> rows;     // spheres::kRowWidth a body
   AlignedVector<double> loads;    // spheres::kLoadWidth a body
   AlignedVector<double> spins;    // spheres::kSpinWidth a body: half-step spin [1/T0]
@@ -40,7 +43,7 @@ struct SphereStore {
 
   std::size_t size() const { return id.size(); }
   void resize(std::size_t n) {
-    id.resize(n), group.assign(n, 0);
+    id.resize(n), group.assign(n, 0), kind.assign(n, SphereKind::grain);
     rows.assign((n + 2 * kPads) * spheres::kRowWidth, 0.0);
     for (std::size_t k = 0; k < kPads; ++k) *row(pad(n, k) + 1) = kFar;
     loads.assign((n + 2 * kPads) * spheres::kLoadWidth, 0.0);
@@ -61,10 +64,18 @@ struct SphereStore {
   Vec3 position(std::size_t k) const { return triple_at(row(k) + spheres::Slot::position); }
   Vec3 half_velocity(std::size_t k) const { return triple_at(row(k) + spheres::Slot::half_velocity); }
   Vec3 half_spin(std::size_t k) const { return triple_at(spin(k)); }
-  double radius(std::size_t k) const { return constants[k].radius; }
+  double radius(std::size_t k) const { return std::abs(constants[k].radius); }  // for the lists: what it fills
+  double signed_radius(std::size_t k) const { return constants[k].radius; }     // for the law
+  SphereBody body(std::size_t k) const { return {signed_radius(k), kind[k]}; }
   Vec3 force(std::size_t k) const { return triple_at(load(k) + spheres::LoadSlot::force); }
   Vec3 torque(std::size_t k) const {
-    return radius(k) * triple_at(load(k) + spheres::LoadSlot::moment_per_radius) + triple_at(moment(k));
+    return signed_radius(k) * triple_at(load(k) + spheres::LoadSlot::moment_per_radius) + triple_at(moment(k));
+  }
+
+  // A shell is there for the grains of its group alone.
+  bool inert(std::size_t i, std::size_t j) const {
+    if (kind[i] != SphereKind::shell && kind[j] != SphereKind::shell) return false;
+    return group[i] != group[j] || kind[i] == kind[j];
   }
 
   // For the lists: body k is now at r, and body k goes to place to[k] of the storage.
@@ -74,7 +85,7 @@ struct SphereStore {
     sorted.resize(size());
     for (std::size_t k = 0; k < size(); ++k) {
       const auto t = static_cast<std::size_t>(to[k]);
-      sorted.id[t] = id[k], sorted.group[t] = group[k];
+      sorted.id[t] = id[k], sorted.group[t] = group[k], sorted.kind[t] = kind[k];
       sorted.constants[t] = constants[k], sorted.inertia[t] = inertia[k];
       std::copy_n(row(k), spheres::kRowWidth, sorted.row(t));
       std::copy_n(load(k), spheres::kLoadWidth, sorted.load(t));
@@ -92,7 +103,7 @@ struct SphereStore {
   void set_half_velocity(std::size_t k, const Vec3& v) { put_triple(row(k) + spheres::Slot::half_velocity, v); }
   void set_half_spin(std::size_t k, const Vec3& w) {
     put_triple(spin(k), w);
-    put_triple(row(k) + spheres::Slot::half_surface, radius(k) * w);
+    put_triple(row(k) + spheres::Slot::half_surface, signed_radius(k) * w);
   }
 
   static constexpr std::size_t kPads = 64;

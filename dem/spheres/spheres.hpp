@@ -12,16 +12,16 @@
 
 namespace isostat {
 
-enum class WallShape : std::uint8_t { plane, shell };
+enum class WallShape : std::uint8_t { plane, shell, ball };
 
-// A rigid wall: a plane with the grains on the side of its normal, or a spherical shell around them. It acts on the
-// grains of its group alone, a plane of group kEveryGroup on all of them.
+// A rigid wall: a plane with the grains on the side of its normal, a spherical shell around them, or a ball that they
+// press from without. It acts on the grains of its group alone, one of group kEveryGroup on all of them.
 struct SphereWall {
   static constexpr std::int32_t kEveryGroup = -1;
   WallShape shape = WallShape::plane;
-  Vec3 point{};       // [a] of the plane; the centre of a shell
-  Vec3 normal{};      // unit vector; of a shell unused
-  double radius = 0;  // [a] of a shell
+  Vec3 point{};       // [a] of the plane; the centre of a shell or ball
+  Vec3 normal{};      // unit vector of a plane
+  double radius = 0;  // [a] of a shell or ball
   Vec3 velocity{};    // [a/T0]
   std::int32_t group = kEveryGroup;
   friend bool operator==(const SphereWall&, const SphereWall&) = default;
@@ -39,6 +39,7 @@ struct WallLink {
 
 struct SpherePacking : Packing<3> {
   std::vector<std::int32_t> group;  // of the bodies, from 0; empty: all in group 0
+  std::vector<SphereKind> kind;     // empty: all grains of the first material
   std::vector<SphereWall> walls;
   std::vector<WallLink> wall_links;
 };

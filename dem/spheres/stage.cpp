@@ -1,5 +1,6 @@
 #include "dem/spheres/stage.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "dem/solver/agitation.hpp"
@@ -7,6 +8,13 @@
 
 namespace isostat {
 namespace {
+
+void stop(State<Spheres>& s) {
+  const auto still = [](std::vector<Vec3>& v) { std::fill(v.begin(), v.end(), Vec3{}); };
+  still(s.packing.bodies.velocity), still(s.packing.bodies.spin);
+  still(s.memory.half_velocity), still(s.memory.half_spin);
+  for (SphereWall& wall : s.packing.walls) wall.velocity = {};
+}
 
 // The first soft-particle goes on with its grains and shell at the speed of the stage.
 void set_approach(State<Spheres>& s, double speed) {
@@ -26,15 +34,17 @@ void set_approach(State<Spheres>& s, double speed) {
 }  // namespace
 
 void prepare_stage(State<Spheres>& s, const StageScene& stage) {
+  if (stage.stop) stop(s);
   set_approach(s, stage.approach);
   if (!stage.friction) return;
   SphereLawScene law = s.scene.sphere_law;
   law.friction = *stage.friction;
-  s.law = resolve(law);
+  s.law = resolve(s.scene.sphere_grains, law);
+  if (s.packing.kind.empty()) s.law = without_unlike(s.law);
 }
 
 void agitate(State<Spheres>& s, const StageScene& stage) {
-  if (stage.velocity > 0) draw_velocities(s, stage.velocity * std::sqrt(s.law.attraction * s.law.attraction_range));
+  if (stage.velocity > 0) draw_velocities(s, drawn_speed(s, stage));
 }
 
 bool event_met(const State<Spheres>&, const StageScene&) { return false; }

@@ -12,12 +12,14 @@ constexpr FileUnits file_units(Spheres) { return {"a", "T0"}; }
 
 template <class Io>
 void transfer_packing(Io& io, SpherePacking& packing) {
-  static_assert(sizeof(SpherePacking) == sizeof(Packing<3>) + 3 * sizeof(std::vector<int>),
+  static_assert(sizeof(SpherePacking) == sizeof(Packing<3>) + 4 * sizeof(std::vector<int>),
                 "a new member needs its place here");
   auto& [cell, bodies, links, beams, part, feet] = static_cast<Packing<3>&>(packing);
   static_cast<void>(beams), static_cast<void>(part), static_cast<void>(feet);  // refused by state_fault(): of the plane
   transfer_round_bodies(io, cell, bodies);
   io.array(kGrainsGroup + "/group", packing.group, io.count(kGrainsGroup + "/group", packing.group.size()), "");
+  if (io.since(6))
+    io.array(kGrainsGroup + "/kind", packing.kind, io.count(kGrainsGroup + "/kind", packing.kind.size()), "");
   transfer_round_links(io, links);
   const auto wall_members = [](SphereWall& wall) {
     auto& [shape, point, normal, wall_radius, wall_velocity, wall_group] = wall;
@@ -50,9 +52,21 @@ void transfer_memory(Io& io, SphereMemory& memory) {
 }
 
 template <class Io>
+void transfer_soft_law(Io& io, const std::string& name, SoftParticleLaw& law) {
+  auto& [force, exponent, offset, tangential, tangential_exponent, friction] = law;
+  io.value("/law", name + "_force", force);
+  io.value("/law", name + "_exponent", exponent);
+  io.value("/law", name + "_offset", offset);
+  io.value("/law", name + "_tangential", tangential);
+  io.value("/law", name + "_tangential_exponent", tangential_exponent);
+  io.value("/law", name + "_friction", friction);
+}
+
+template <class Io>
 void transfer_law(Io& io, SphereLaw& law) {
-  auto& [normal, grain, wall, normal_stiffness, tangential_stiffness, damping, tangential_damping, friction,
-         wall_friction, rolling_friction, rolling_stiffness, attraction, attraction_range] = law;
+  auto& [normal, grain, wall, second, soft_solid, soft_soft, soft_curvature, normal_stiffness, tangential_stiffness,
+         damping, tangential_damping, friction, wall_friction, rolling_friction, rolling_stiffness, attraction,
+         attraction_range] = law;
   io.choice("/law", "normal", normal, kNormalForceNames);
   io.value("/law", "modulus", grain.modulus);
   io.value("/law", "poisson", grain.poisson);
@@ -68,6 +82,12 @@ void transfer_law(Io& io, SphereLaw& law) {
   io.value("/law", "rolling_stiffness", rolling_stiffness);
   io.value("/law", "attraction", attraction);
   io.value("/law", "attraction_range", attraction_range);
+  if (!io.since(6)) return;
+  io.value("/law", "second_modulus", second.modulus);
+  io.value("/law", "second_poisson", second.poisson);
+  transfer_soft_law(io, "soft_solid", soft_solid);
+  transfer_soft_law(io, "soft_soft", soft_soft);
+  io.value("/law", "soft_curvature", soft_curvature);
 }
 
 }  // namespace isostat

@@ -23,6 +23,15 @@ double contact_time(const SphereLaw& law, double radius, double density) {
   return std::sqrt(mass_of(radius, density) / stiffness_of_equal(law, radius));
 }
 
+double shortest_contact_time(const Scene& scene, double smallest_radius) {
+  const SphereGrainsScene& g = scene.sphere_grains;
+  SphereLaw law = resolve(g, scene.sphere_law);
+  double time = contact_time(law, smallest_radius, g.density);
+  if (!(g.second_share > 0)) return time;
+  law.grain = law.second;
+  return std::min(time, contact_time(law, smallest_radius, g.second_density.value_or(g.density)));
+}
+
 double critical_fraction(const SphereLaw& law, double radius, double density) {
   const double mass = mass_of(radius, density), normal = stiffness_of_equal(law, radius);
   const double tangential =

@@ -9,8 +9,8 @@
 
 namespace isostat {
 
-inline bool acts_on(const SphereWall& wall, std::int32_t group) {
-  return wall.group == SphereWall::kEveryGroup || wall.group == group;
+inline bool acts_on(const SphereWall& wall, std::int32_t group, SphereKind kind) {
+  return kind != SphereKind::shell && (wall.group == SphereWall::kEveryGroup || wall.group == group);
 }
 
 struct WallFrame {
@@ -20,12 +20,13 @@ struct WallFrame {
 };
 WallFrame wall_frame(const SphereWall& wall, const Vec3& position);
 
-// The law at walls with what of it is the same for all spheres.
+// The law at walls with what of it is the same for all grains.
 struct WallLaw {
   explicit WallLaw(const SphereLaw& of) : law(of), unit(wall_stiffness(of, 1)) {}
-  ContactStiffness stiffness(double radius) const {
-    const double root = law.normal == NormalForce::hertz ? std::sqrt(radius) : 1;
-    return {unit.normal * root, unit.tangential * root};
+  ContactStiffness stiffness(const SphereBody& body, const SphereWall& wall) const {
+    if (body.kind != SphereKind::grain || wall.shape == WallShape::ball) return wall_stiffness(law, body, wall);
+    const double root = law.normal == NormalForce::hertz ? std::sqrt(body.radius) : 1;
+    return {unit.normal * root, unit.tangential * root, unit.friction, {}};
   }
   const SphereLaw& law;
   ContactStiffness unit;  // of radius 1
@@ -40,8 +41,8 @@ struct WallLoad {
   Vec3 force{}, moment_per_radius{};  // on the sphere
 };
 // Stretches the spring by the motion over the time step, and gives the load with viscous parts.
-WallLoad wall_load(const WallLaw& law, const SphereWall& wall, const SphereConstants& sphere, const Vec3& position,
-                   const WallMotion& motion, double time_step, Vec3& spring);
+WallLoad wall_load(const WallLaw& law, const SphereWall& wall, const SphereBody& body, double mass,
+                   const Vec3& position, const WallMotion& motion, double time_step, Vec3& spring);
 
 // The wall with its point moved on by its velocity.
 inline void move_wall(SphereWall& wall, double time_step) { wall.point += time_step * wall.velocity; }

@@ -189,6 +189,31 @@ TEST(Stress, TriangularLatticeIsIsotropicAndRumpfIsExact) {
   EXPECT_NEAR(json["tensor"][0][1], 0, 1e-13);
   EXPECT_NEAR(json["mean_normal_force"], f, 1e-14);
   EXPECT_NEAR(json["rumpf_force"], f, 2 * h * f);  // Eq. 15 assumes h << R
+  EXPECT_NEAR(json["mean_force_diameter"], f, 1e-14);
+}
+
+// Eq. 16 is an assumption, <N (R_i + R_j)> is not: large grains with large forces.
+TEST(Stress, MeanForceDiameterClosesRumpfWhereForcesFollowSizes) {
+  const int n = 200;
+  std::vector<Vec2> places;
+  std::vector<double> radius(n);
+  double x = 0;
+  for (int k = 0; k < n; ++k) {
+    radius[static_cast<std::size_t>(k)] = k < n / 2 ? 0.25 : 0.5;
+    x += radius[static_cast<std::size_t>(k)];
+    places.push_back({{x, 0}});
+    x += radius[static_cast<std::size_t>(k)];
+  }
+  Packing<2> p = disks(places);
+  p.bodies.radius = radius;
+  p.cell = PeriodicCell<2>{{{x, 2}}};
+  for (int k = 0; k < n; ++k) p.links.push_back(link(k, (k + 1) % n, k < n / 2 ? 1 : 3, 0, {k + 1 == n ? 1 : 0, 0}));
+  const Json stress = stress_section(foreign(p), {});
+  const double mean_diameter = 0.75, rumpf = stress["rumpf_force"], mean = stress["mean_normal_force"];
+  EXPECT_DOUBLE_EQ(mean, 2);
+  EXPECT_NEAR(stress["mean_force_diameter"].get<double>(), (99.0 * 0.5 + 0.75 + 99 * 3 + 3 * 0.75) / 200, 1e-13);
+  EXPECT_NEAR(rumpf * mean_diameter, stress["mean_force_diameter"].get<double>(), 1e-12);
+  EXPECT_GT(rumpf, 1.1 * mean);
 }
 
 TEST(Stress, RumpfForceIsEquation18ForThePapersDiameters) {

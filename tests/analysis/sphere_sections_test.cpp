@@ -24,7 +24,7 @@ using oracle::refusal;
 AnalysisInput input_of(Packing<3> p) {
   AnalysisInput input;
   input.path = "test";
-  input.packing_3d = std::move(p);
+  static_cast<Packing<3>&>(input.packing_3d.emplace()) = std::move(p);
   input.links_given = true;
   return input;
 }
@@ -67,6 +67,7 @@ TEST(SphereSections, LatticeUnderPressure) {
   EXPECT_NEAR(report["stress"]["pressure"].get<double>(), 2, 1e-12);
   EXPECT_NEAR(report["stress"]["rumpf_force"].get<double>(), 2, 1e-12);
   EXPECT_NEAR(report["stress"]["mean_normal_force"].get<double>(), 2, 1e-12);
+  EXPECT_NEAR(report["stress"]["mean_force_diameter"].get<double>(), 2, 1e-12);
   EXPECT_NEAR(report["equilibrium"]["max_force"].get<double>(), 0, 1e-12);
   EXPECT_NEAR(report["equilibrium"]["max_moment"].get<double>(), 0, 1e-12);
   EXPECT_EQ(report["equilibrium"]["force_scale"], 2.0);

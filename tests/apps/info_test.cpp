@@ -95,6 +95,31 @@ TEST_F(InfoCommand, GivesSiWithUnitsAndNullWithoutCohesion) {
   EXPECT_EQ(dry["cell"], nullptr);
 }
 
+// Gilabert 2007, Sec. II.C: for toner F0/a^2 is of the order of 100 Pa, P* = .01 about 1 Pa, T0 some 1e-5 s, V* about
+// 1 cm/s, D0 10 nm, and K_N = 1e5 F0/a stands for E = 3.2 GPa.
+TEST_F(InfoCommand, GivesTheNumbersOfTheTonerOfThePaper) {
+  const Outcome o = run("pack " ISOSTAT_DATA
+                        "/scenes/toner.toml --set grains.count=20 "
+                        "--max-time 0.5 -o " +
+                        in_folder("toner.h5"));
+  ASSERT_EQ(o.code, 3) << o.err;  // stopped early
+  State<Disks> state = read_state<Disks>(in_folder("toner.h5"));
+  state.imposed_stress = isotropic<2>(state.scene.stages.back().pressure);
+  write_state(state, in_folder("loaded.h5"));
+  const json j = json::parse(run("info " + in_folder("loaded.h5")).out), si = j["si"];
+  const double a = si["a"], f0 = si["F0"];
+  EXPECT_DOUBLE_EQ(f0 / (a * a), 100);
+  EXPECT_NEAR(si["P"].get<double>() / a, 1, 1e-12);  // Pa, a layer of thickness a
+  EXPECT_DOUBLE_EQ(j["scales"]["P*"], 0.01);
+  EXPECT_GT(si["T0"].get<double>(), 1e-5);
+  EXPECT_LT(si["T0"].get<double>(), 3e-5);
+  EXPECT_NEAR(si["V*"].get<double>(), 0.01, 0.005);
+  EXPECT_NEAR(si["m"].get<double>(), 1000 * std::numbers::pi / 6 * a * a * a, 1e-3 * si["m"].get<double>());
+  EXPECT_DOUBLE_EQ(state.law.attraction_range * a, 1e-8);
+  EXPECT_NEAR(std::pow(state.law.normal_stiffness, 1.5) * f0 / (a * a), 3.2e9,
+              0.05e9);  // E of kappa = (E a^2/F0)^(2/3)
+}
+
 TEST_F(InfoCommand, TellsTheSystemAndItsOwnNumbers) {
   write_state(two_disks(), in_folder("disks.h5"));
   EXPECT_EQ(json::parse(run("info " + in_folder("disks.h5")).out)["system"], "disks");
@@ -105,7 +130,7 @@ TEST_F(InfoCommand, TellsTheSystemAndItsOwnNumbers) {
   ASSERT_EQ(o.code, 0) << o.err;
   const json j = json::parse(o.out);
   EXPECT_EQ(j["system"], "triangles");
-  EXPECT_EQ(j["format_version"], 5);
+  EXPECT_EQ(j["format_version"], kStateFormatVersion);
   EXPECT_EQ(j["hash"], read_state_file(in_folder("triangles.h5")).hash);
   EXPECT_EQ(j["cell"], nullptr);
   EXPECT_EQ(j["seed"], state.seed);

@@ -22,6 +22,9 @@ ROOT = os.path.abspath(os.path.join(HERE, "..", ".."))
 SCENES = os.path.join(ROOT, "data", "scenes")
 OUTPUT = os.path.join(ROOT, "docs", "measured", "results", "finishing.csv")
 METHODS = ("none", "drag", "newton")
+# The readings of the paper with which the results were measured.
+READINGS = {"method1": ("cell.inertia=0.3", "stage.0.max_strain_rate=0.05"),
+            "method2": ("cell.inertia=0.3", 'stage.0.velocity_of="vector"')}
 NUMBERS = ("solid_fraction", "z", "z_star", "N_plus", "N_minus", "zero_fraction", "above_tenth_fraction", "max_force",
            "cpu_seconds")
 HEADER = ("scene", "rolling", "seed", "finishing", "equilibrated") + NUMBERS
@@ -65,7 +68,8 @@ def sample(program, grains, scene, rolling, seed):
     rows, truth = [], str(rolling).lower()
     with tempfile.TemporaryDirectory() as directory:
         path, settings = os.path.join(SCENES, scene.split(",")[0] + ".toml"), [f"law.rolling={truth}"]
-        shared = [f"grains.count={grains}", f"seed={seed}", "step.fraction=0.12"]
+        shared = [f"grains.count={grains}", f"seed={seed}", "step.fraction=0.12",
+                  *READINGS["method1" if "method1" in scene else "method2"]]
         if "last stage" in scene:
             pack(program, path, os.path.join(directory, "s.h5"), *settings, *shared, 'finish.method="newton"',
                  "output.stages=true")

@@ -1,14 +1,17 @@
 #!/usr/bin/env python3
-"""The paper's numbers (data/papers/gilabert2007.csv) beside those of the studies in data/studies.
+"""The paper's numbers (data/papers/gilabert2007.csv) beside those of the studies in data/studies, and chi^2 a table.
 
     isostat study data/studies/NAME.toml -o out/NAME        for NAME in method1 aggregation agitation limits choices
     tests/bench/paper_tables.py out docs/measured/results
 
-writes docs/measured/results/gilabert2007.csv and prints it as markdown, study_choices.csv (means of the study of that name), and
-runs_NAME.csv, every run with its end, CPU time and hash.
+writes docs/measured/results/gilabert2007.csv and prints it as markdown, study_choices.csv (means of the study of that name),
+runs_NAME.csv, every run with its end, CPU time and hash, and gilabert2007_chi2.csv.
 
 A row such as A+A-5600 pools the samples of both: the paper does not distinguish sizes. Errors are standard errors over
-samples. `gap` is (ours - paper) in units of the combined error, where the paper gives one.
+samples. `gap` is (ours - paper) over the root of the sum of squares of our standard error and of the paper's printed error,
+which is a standard deviation in Tables II and III (`sd`, Sec. III.A) and not said to be one or the other elsewhere; `words`:
+a sentence without an error. `before`: the gap in gilabert2007_before.csv, with the readings that study_choices.csv keeps,
+whose number stands where a study has not been run. Doubtful numbers (`copy`: those that Table III has twice) are left out of chi^2.
 """
 import csv
 import json
@@ -20,6 +23,7 @@ COLUMNS = {"Phi": ("counts", "solid_fraction"), "z": ("counts", "z"), "F_perc": 
            "mean_radius_weighted": ("pores", "mean_radius_weighted"), "rattlers": ("counts", "rattlers"),
            "distant": ("counts", "distant")}
 OVER = {"rattlers": "grains", "distant": "contacts"}  # a proportion of
+DATA = pathlib.Path(__file__).resolve().parents[2] / "data/papers/gilabert2007.csv"
 
 
 def values(folder, row, stage, quantity):
@@ -51,6 +55,13 @@ def statistics(x):
     return mean, sd / math.sqrt(n) if n > 1 else math.nan
 
 
+def gap_of(mean, error, row):
+    """(ours - paper) in units of the combined error; nan where the paper gives none."""
+    if not row["paper_error"] or mean != mean:
+        return math.nan
+    return (mean - float(row["paper"])) / math.hypot(error if error == error else 0, float(row["paper_error"]))
+
+
 def write(path, rows):
     with open(path, "w", newline="") as f:
         csv.writer(f, lineterminator="\n").writerows(rows)
@@ -73,32 +84,67 @@ def write_runs(folder, target):
     write(target / f"runs_{folder.name}.csv", [header, *rows])
 
 
-def main():
-    out, target = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
-    data = pathlib.Path(__file__).resolve().parents[2] / "data/papers/gilabert2007.csv"
-    lines = [["table", "case", "quantity", "ours", "error", "samples", "paper", "paper_error", "gap", "reference",
-              "difference"]]
-    for r in csv.DictReader(open(data)):
-        folder = out / r["study"]
-        if not (folder / "runs.csv").exists():
-            continue
-        x = [v for row in r["row"].split("+") for v in values(folder, row, r["stage"], r["quantity"])]
-        mean, error = statistics(x)
-        paper = float(r["paper"])
-        combined = math.hypot(error if error == error else 0, float(r["paper_error"] or 0))
-        gap = f"{(mean - paper) / combined:.1f}" if r["paper_error"] and combined > 0 else ""
-        difference = f"{mean - float(r['reference']):+.4f}" if r["reference"] else ""
-        lines.append([r["table"], r["case"], r["quantity"], f"{mean:.4g}", f"{error:.2g}", str(len(x)), r["paper"],
-                      r["paper_error"], gap, r["reference"], difference])
-    write(target / "gilabert2007.csv", lines)
-    for folder in sorted(p.parent for p in out.glob("*/runs.csv")):
-        write_runs(folder, target)
-    if (out / "choices/study.csv").exists():
-        write_choices(out / "choices", target)
+def markdown(lines):
     for k, line in enumerate(lines):
         print("| " + " | ".join(line) + " |")
         if k == 0:
             print("|" + " --- |" * len(line))
+    print()
 
 
-main()
+def name_of(row):
+    return row["table"], row["case"].removeprefix("Phi_I .36 "), row["quantity"]
+
+
+def rows_before(target):
+    path = target / "gilabert2007_before.csv"
+    return {name_of(r): r for r in csv.DictReader(open(path))} if path.exists() else {}
+
+
+def chi_squares(rows):
+    """rows: (table, before or "", gap, doubtful). Chi^2 a table, over the same numbers where both are known."""
+    lines = [["table", "numbers", "chi2", "of_numbers_before", "chi2_before", "chi2_of_these"]]
+    for table in dict.fromkeys(r[0] for r in rows):
+        sure = [r for r in rows if r[0] == table and not r[3] and r[2] == r[2]]
+        both = [r for r in sure if r[1]]
+        if sure:
+            lines.append([table, str(len(sure)), f"{sum(r[2] ** 2 for r in sure):.0f}", str(len(both)),
+                          f"{sum(float(r[1]) ** 2 for r in both):.0f}", f"{sum(r[2] ** 2 for r in both):.0f}"])
+    return lines
+
+
+def main():
+    out, target = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+    before = rows_before(target)
+    lines = [["table", "case", "quantity", "ours", "error", "samples", "paper", "paper_error", "kind", "gap", "before"]]
+    gaps = []
+    for r in csv.DictReader(open(DATA)):
+        folder = out / r["study"]
+        was = before.get(name_of(r), {}).get("gap", "")
+        kind = r["error_kind"] + (", " + r["doubt"] if r["doubt"] else "")
+        x = []
+        if (folder / "runs.csv").exists():
+            x = [v for row in r["row"].split("+") for v in values(folder, row, r["stage"], r["quantity"])]
+        if not x:  # not run (again)
+            if old := before.get(name_of(r)):
+                lines.append([r["table"], r["case"], r["quantity"], "", "", "", r["paper"], r["paper_error"], kind,
+                              f"not run; {old['ours']} +- {old['error']} ({old['samples']}) before", was])
+            continue
+        mean, error = statistics(x)
+        gap = gap_of(mean, error, r)
+        lines.append([r["table"], r["case"], r["quantity"], f"{mean:.4g}", f"{error:.2g}", str(len(x)), r["paper"],
+                      r["paper_error"], kind, f"{gap:.1f}" if gap == gap else "", was])
+        gaps.append((r["table"], was, gap, r["doubt"]))
+    write(target / "gilabert2007.csv", lines)
+    chi2 = chi_squares(gaps)
+    write(target / "gilabert2007_chi2.csv", chi2)
+    for folder in sorted(p.parent for p in out.glob("*/runs.csv")):
+        write_runs(folder, target)
+    if (out / "choices/study.csv").exists():
+        write_choices(out / "choices", target)
+    markdown(lines)
+    markdown(chi2)
+
+
+if __name__ == "__main__":
+    main()

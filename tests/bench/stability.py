@@ -19,6 +19,10 @@ import numpy as np
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SMALL = ["grains.count=150", "step.fraction=0.1"]
 M2, M1 = "disks-method2-a", "disks-method1"
+# The readings of the paper with which the results were measured.
+READINGS = {M2: ["cell.inertia=0.3", 'stage.0.velocity_of="vector"', "stage.2.max_strain_rate=0.05",
+                 "stage.2.max_edge_speed=1000.0"],
+            M1: ["cell.inertia=0.3", "stage.0.max_strain_rate=0.05"]}
 CASES = []
 
 
@@ -54,7 +58,7 @@ case("zeta 1.5", "law.damping=1.5", "step.fraction=0.06")
 def run(program, folder, number, name, scene, settings):
     state = folder / f"{number}.h5"
     command = [program, "pack", str(ROOT / f"data/scenes/{scene}.toml"), "-o", str(state)]
-    for s in settings:
+    for s in [*READINGS[M2 if scene == M2 else M1], *settings]:
         command += ["--set", s]
     command += ["--timings", str(folder / f"{number}.json")]
     try:

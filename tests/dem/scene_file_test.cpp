@@ -127,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"[grains]\ncount = 0\n" + kStage, "grains.count", "[1, 1e+09]"},
         Case{"[grains]\ncount = 10.5\n" + kStage, "grains.count", "integer"},
         Case{"[grains]\ncount = 9223372036854775807\n" + kStage, "grains.count", "integer"},
-        Case{"[grains]\nsolid_fraction = 0.7\n" + kStage, "grains.solid_fraction", "(0, 0.5]"},
+        Case{"[grains]\nsolid_fraction = 0.7\n" + kStage, "grains.solid_fraction", "(0, 0.65]"},
         Case{"[grains]\ndiameter_min = 1.5\n" + kStage, "grains.diameter_min", "at most grains.diameter_max = 1.0"},
         Case{"[grains]\ndiameter_max = \"big\"\n" + kStage, "grains.diameter_max", "real"},
         Case{"[law]\nfriction = nan\n" + kStage, "law.friction", "real >= 0"},

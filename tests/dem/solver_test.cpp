@@ -53,6 +53,7 @@ struct RunCase {
   bool rate_coupling = false;
   double drag = 0;
   std::int64_t steps = 300;
+  double edge_speed = INFINITY;
 };
 
 RandomDisks with(LawScene law, std::uint64_t seed = 1) {
@@ -93,6 +94,7 @@ std::vector<RunCase> run_cases() {
           {"size ratio 10", polydisperse, 10.0},
           {"two disks", pair, 2.0},
           {"a strip", strip, 30.0},
+          {"a strip with slow edges", strip, 30.0, false, 0, 300, 0.7},
           {"expanding", with(soft_law(), 9), -20.0}};
 }
 
@@ -121,6 +123,7 @@ TEST(Solver, MarchesLikeTheReferenceSolver) {
     CellControl<2> control;
     if (c.pressure) control = barostat(s, *c.pressure, 2.0);
     control.rate_coupling = c.rate_coupling;
+    control.max_edge_speed = c.edge_speed;
     DiskReference reference(s, control);
     Solver solver(s, control);
     solver.set_drag(c.drag), reference.set_drag(c.drag);

@@ -8,6 +8,7 @@
 #include "dem/disks/engine.hpp"
 #include "dem/disks/physical_hash.hpp"
 #include "dem/disks/sample.hpp"
+#include "dem/disks/stage.hpp"
 #include "dem/files/state_file.hpp"
 #include "dem/run/stages.hpp"
 #include "dem/scene/file.hpp"
@@ -62,6 +63,33 @@ State<Disks> go_on(const StageScene& stage, RunOutcome* outcome = nullptr, bool 
 TEST(Stages, AggregationEndsWithOneClusterInEquilibrium) {
   EXPECT_EQ(count_clusters(aggregate().packing), 1u);
   EXPECT_TRUE(aggregate().certificate.equilibrated);
+}
+
+TEST(Stages, DrawnSpeedIsThatOfTheVectorOrOfEachComponent) {
+  const auto drawn = [](VelocityOf of) {
+    Scene scene = gas(400);
+    StageScene stage;
+    stage.velocity = 9.48, stage.velocity_of = of;
+    scene.stages = {stage};
+    State<Disks> s = initial_disks(scene, 3);
+    agitate(s, stage);
+    return s.packing.bodies.velocity;
+  };
+  const auto mean_square = [](const std::vector<Vec2>& v, auto of) {
+    double sum = 0;
+    for (const Vec2& u : v) sum += of(u);
+    return sum / static_cast<double>(v.size());
+  };
+  const double v0 = 9.48 * std::sqrt(1.0 * 0.02);  // V* = sqrt(F0 D0 / m)
+  const std::vector<Vec2> vector = drawn(VelocityOf::vector), component = drawn(VelocityOf::component);
+  EXPECT_NEAR(mean_square(vector, [](const Vec2& u) { return dot(u, u); }), v0 * v0, 1e-12);
+  EXPECT_NEAR(mean_square(component, [](const Vec2& u) { return dot(u, u); }), 2 * v0 * v0, 1e-12);
+  // Each component then has V0 within its sampling error, V0^2 sqrt(2/N), of N = 400.
+  for (const int a : {0, 1})
+    EXPECT_NEAR(mean_square(component, [a](const Vec2& u) { return u[a] * u[a]; }), v0 * v0,
+                4 * std::sqrt(2.0 / 400) * v0 * v0);
+  for (std::size_t k = 0; k < vector.size(); ++k)
+    EXPECT_LT(norm(component[k] - std::sqrt(2.0) * vector[k]), 1e-13) << "the same draw";
 }
 
 TEST(Stages, StiffeningFollowsTheExponentialAndKeepsTheEnergyLedger) {

@@ -131,8 +131,8 @@ TEST(StateFile, OtherFilesAreBadInput) {
   EXPECT_THAT(message_of([&] { read_state<Disks>(folder / "text.h5"); }), HasSubstr("not a state file"));
   EXPECT_FALSE(is_state_file(folder / "text.h5") || is_state_file(folder / "none.h5") || is_state_file("/tmp"));
   std::string later = encode_state(random_state(1, 2, 1));
-  later.replace(later.find("version 5"), 9, "version 6");
-  EXPECT_THAT(message_of([&] { decode_state(later, "later.h5"); }), HasSubstr("format_version = 6"));
+  later.replace(later.find("version 6"), 9, "version 7");
+  EXPECT_THAT(message_of([&] { decode_state(later, "later.h5"); }), HasSubstr("format_version = 7"));
 }
 
 // The image after changes by the HDF5 library itself, sealed anew: what only the inner checks can find.
@@ -240,8 +240,8 @@ TEST(StateFile, EveryInnerFaultIsNamed) {
       {"/@system = squares: this isostat knows disks, triangles and spheres",
        [](hid_t f) { set_text(f, "system", "squares"); }},
       {"/surroundings@open: is missing", [](hid_t f) { H5Adelete_by_name(f, "/surroundings", "open", H5P_DEFAULT); }},
-      {"format_version = 7",
-       [](hid_t f) { set_attribute<std::int64_t>(f, "/", "format_version", H5T_NATIVE_INT64, 7); }},
+      {"format_version = 8",
+       [](hid_t f) { set_attribute<std::int64_t>(f, "/", "format_version", H5T_NATIVE_INT64, 8); }},
       {"law: a parameter that is negative",
        [](hid_t f) { set_attribute(f, "/law", "friction", H5T_NATIVE_DOUBLE, -0.5); }},
       {"/progress@started: is out of range",

@@ -122,6 +122,8 @@ void DiskReference::step() {
         rate_[a] = old + dt_ * (*control_.stress[a] - stress_[a]) / control_.inertia;
         if (control_.max_strain_rate > 0)
           rate_[a] = std::min(control_.max_strain_rate, std::max(-control_.max_strain_rate, rate_[a]));
+        if (std::abs(rate_[a]) * reference_[a] > control_.max_edge_speed)
+          rate_[a] = std::copysign(control_.max_edge_speed / reference_[a], rate_[a]);
       } else {
         rate_[a] = control_.strain_rate[static_cast<int>(a)];
       }

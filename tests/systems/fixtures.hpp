@@ -271,6 +271,19 @@ struct Fixture<Spheres> {
     if (room == "walls") enclose(v.state.packing);
     return v;
   }
+  // Grains of two materials and soft-particles.
+  static Variant<Spheres> unlike(int count, const std::string& room) {
+    SphereLaw law = oracle::soft_sphere_law();
+    law.attraction = law.attraction_range = law.rolling_friction = law.rolling_stiffness = 0;
+    law.second = {300, 0.1};
+    law.soft_solid = {0.8, 1.7, -1e-3, 4, 1.1, 0.25}, law.soft_soft = {0.5, 2.2, -1e-4, 3, 1.3, 0.4};
+    law.soft_curvature = 0.4;
+    Variant<Spheres> v = variant(law, count, room);
+    v.name = "unlike bodies, " + room;
+    std::vector<SphereKind>& kind = v.state.packing.kind;
+    for (std::size_t k = 0; k < v.state.packing.bodies.size(); ++k) kind.push_back(static_cast<SphereKind>(k % 3));
+    return v;
+  }
   // A shell around half of them, and a plane that closes on all.
   static void enclose(SpherePacking& p) {
     Vec3 low = p.bodies.position.front(), high = low;
@@ -294,10 +307,12 @@ struct Fixture<Spheres> {
     for (const char* room : {"free cell", "walls"})
       for (const NormalForce normal : {NormalForce::hertz, NormalForce::linear})
         list.push_back(variant(oracle::soft_sphere_law(normal), count, room));
+    for (const char* room : {"fixed cell", "no cell", "free cell", "walls"}) list.push_back(unlike(count, room));
     return list;
   }
   static std::vector<Variant<Spheres>> large(int count) {
-    return {variant(oracle::soft_sphere_law(), count, "free cell"), variant(oracle::soft_sphere_law(), count, "walls")};
+    return {variant(oracle::soft_sphere_law(), count, "free cell"), variant(oracle::soft_sphere_law(), count, "walls"),
+            unlike(count, "free cell")};
   }
   static int chunks(const State<Spheres>& s) { return SphereEngine::Lists::chunk_count(s.packing.bodies.size()); }
   static bool is_lively(const Variant<Spheres>&, const State<Spheres>& end) {

@@ -62,6 +62,41 @@ TYPED_TEST(EverySystem, RestartsAsIfItHadRunStraight) {
   }
 }
 
+// An edge goes as fast as the cap and no faster, whatever its length; a cap that is never reached changes no bit.
+TYPED_TEST(EverySystem, CapsTheSpeedOfTheEdgesOfItsCell) {
+  int capped = 0;
+  for (const auto& v : Fixture<TypeParam>::variants(40)) {
+    if (!largest_stress(v.control.stress)) continue;
+    SCOPED_TRACE(v.name);
+    const State<TypeParam> free = marched(v.state, v.control, 120);
+    const auto speed = [](const State<TypeParam>& s, int a) {
+      return std::abs(s.cell_motion.strain_rate[a]) * s.cell_motion.reference_length[a];
+    };
+    double fastest = 0;
+    for (int a = 0; a < TypeParam::dimension; ++a) fastest = std::max(fastest, speed(free, a));
+    auto control = v.control;
+    control.max_edge_speed = 1e3 * fastest;
+    EXPECT_EQ(bytes(marched(v.state, control, 120)), bytes(free));
+    control.max_edge_speed = 0.3 * fastest;
+    State<TypeParam> s = v.state;
+    Solver<TypeParam> solver(s, control);
+    double reached = 0;
+    for (int k = 0; k < 120; ++k) {
+      const auto before = s.packing.cell->length;
+      solver.step();
+      solver.snapshot(s);
+      for (int a = 0; a < TypeParam::dimension; ++a) {
+        const double moved = std::abs(s.packing.cell->length[a] - before[a]);
+        EXPECT_LE(moved, (1 + 1e-9) * control.max_edge_speed * s.time_step);
+        reached = std::max(reached, moved / (control.max_edge_speed * s.time_step));
+      }
+    }
+    EXPECT_NEAR(reached, 1, 1e-9);
+    ++capped;
+  }
+  EXPECT_GT(capped, 0);
+}
+
 // The ledger is kept by a dearer kernel; the physics does not notice. Snapshots only read.
 TYPED_TEST(EverySystem, IsNotChangedByWatching) {
   for (const auto& v : Fixture<TypeParam>::variants(40)) {

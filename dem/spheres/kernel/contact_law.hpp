@@ -32,7 +32,11 @@ struct Catalogue {
   static constexpr std::array<LawComposition, sizeof...(Law)> compositions{Law::composition...};
 };
 template <class... A>
-using WithEveryNormal = Catalogue<ContactLaw<law::NormalHertz, A>..., ContactLaw<law::NormalLinear, A>...>;
+struct WithEveryNormal {
+  template <class... Unlike>  // and of unlike bodies these
+  using And = Catalogue<ContactLaw<law::NormalHertz, A>..., ContactLaw<law::NormalLinear, A>...,
+                        ContactLaw<law::NormalUnlike, Unlike>...>;
+};
 
 using namespace law;
 using Supported = WithEveryNormal<                                                 //
@@ -47,7 +51,11 @@ using Supported = WithEveryNormal<                                              
     Axes<AdhesionNone, DampingNone, FrictionCoulomb, RollingElastoplastic>,        //
     Axes<AdhesionLinear, DampingNone, FrictionNone, RollingNone>,                  //
     Axes<AdhesionLinear, DampingNone, FrictionCoulomb, RollingNone>,               //
-    Axes<AdhesionLinear, DampingNone, FrictionCoulomb, RollingElastoplastic>>;
+    Axes<AdhesionLinear, DampingNone, FrictionCoulomb, RollingElastoplastic>>::    //
+    And<Axes<AdhesionNone, DampingCritical, FrictionNone, RollingNone>,            //
+        Axes<AdhesionNone, DampingCritical, FrictionCoulomb, RollingNone>,         //
+        Axes<AdhesionNone, DampingNone, FrictionNone, RollingNone>,                //
+        Axes<AdhesionNone, DampingNone, FrictionCoulomb, RollingNone>>;
 
 using KernelSet = std::array<PairForceKernel, 2>;  // by tally
 using KernelTable = std::array<KernelSet, Supported::compositions.size()>;

@@ -5,8 +5,10 @@
 
 namespace isostat::spheres {
 
-LawComposition composition(const SphereLaw& p) {
-  return {p.normal == NormalForce::hertz ? NormalHertz::keyword : NormalLinear::keyword,
+LawComposition composition(const SphereLaw& p, bool unlike) {
+  const bool hertz = p.normal == NormalForce::hertz;
+  return {!hertz ? (unlike ? "linear of unlike bodies" : NormalLinear::keyword)
+                 : (unlike ? NormalUnlike::keyword : NormalHertz::keyword),
           p.attraction > 0 ? AdhesionLinear::keyword : AdhesionNone::keyword,
           p.damping > 0 ? DampingCritical::keyword : DampingNone::keyword,
           p.friction > 0 ? FrictionCoulomb::keyword : FrictionNone::keyword,
@@ -27,8 +29,8 @@ std::string supported_compositions() {
   return list;
 }
 
-PairForceKernel select_kernel(const SphereLaw& p, Tally tally, Isa isa) {
-  const LawComposition wanted = composition(p);
+PairForceKernel select_kernel(const SphereLaw& p, Tally tally, Isa isa, bool unlike) {
+  const LawComposition wanted = composition(p, unlike);
   const KernelTable& table = isa == Isa::avx512 ? avx512_kernels()
                              : isa == Isa::avx2 ? avx2_kernels()
                                                 : scalar_kernels();

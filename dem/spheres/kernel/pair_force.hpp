@@ -8,9 +8,12 @@
 #include <string_view>
 
 #include "dem/solver/isa.hpp"
+#include "dem/spheres/soft_contact.hpp"
 #include "dem/spheres/sphere_law.hpp"
 
 namespace isostat::spheres {
+
+inline constexpr std::int32_t kNotSoft = -1;
 
 // Pairs in structure-of-arrays form, in batches of kPairBatch (dem/solver/neighbours.hpp); the rest of a group is
 // padded with a pair of two far bodies.
@@ -20,7 +23,12 @@ struct PairArrays {
   const std::uint8_t* shift = nullptr;  // image code 0..26 -> offset table; read in image segments only
   const double* radius_sum = nullptr;   // R_i + R_j [a]
   const double* stiffness = nullptr;    // ContactStiffness::normal
-  const double* damping = nullptr;      // eta, of Hertz eta / d^(1/4) [F0 T0/a, F0 T0/a^(5/4)]
+  const double* damping = nullptr;      // eta, of Hertz eta / d^(1/4) [F0 T0/a, F0 T0/a^(5/4)], see pairs.hpp
+  // Of unlike bodies alone: k_T over `stiffness` at d = 1, mu, and the place of a soft contact among `soft_contacts`.
+  const double* tangential_ratio = nullptr;
+  const double* friction = nullptr;
+  const std::int32_t* soft = nullptr;  // kNotSoft: none
+  const SoftContact* soft_contacts = nullptr;
   std::array<double*, 3> tangential{};  // T on j [F0], history
   std::array<double*, 3> moment{};      // M on j [F0 a], history
 };
@@ -59,10 +67,11 @@ struct LawComposition {
   std::string_view normal, adhesion, damping, friction, rolling;
   friend bool operator==(const LawComposition&, const LawComposition&) = default;
 };
-LawComposition composition(const SphereLaw& law);
+LawComposition composition(const SphereLaw& law, bool unlike = false);
 
-// The kernel for a law; throws InputError with the list of supported compositions if there is none.
-PairForceKernel select_kernel(const SphereLaw& law, Tally tally, Isa isa);
+// The kernel for a law, of bodies of one kind or of several; throws InputError with the list of supported compositions
+// if there is none.
+PairForceKernel select_kernel(const SphereLaw& law, Tally tally, Isa isa, bool unlike = false);
 std::string supported_compositions();  // one a line
 
 }  // namespace isostat::spheres

@@ -4,6 +4,7 @@
 #include "dem/spheres/kernel/contact_law.hpp"
 #include "dem/spheres/kernel/pair_force.hpp"
 #include "dem/spheres/kernel/row.hpp"
+#include "dem/spheres/kernel/soft_lanes.hpp"
 #include "dem/spheres/kernel/transport.hpp"
 
 namespace isostat::spheres {
@@ -47,6 +48,18 @@ ISOSTAT_INLINE Real3<V> without_lever(const Real3<V>& v, const PairFrame3<V>& f,
           mul_add<V>(-f.lever_ratio, turn[2], v[2])};
 }
 
+// Of a pair with a shell, whose radius and so the sum are below zero, the distance counts as negative, and all formulas
+// hold as they stand: N > 0 pushes the grain towards the centre, the gap is R_s - R - |r|, and lever arms end at the
+// contact point on the shell.
+template <class V>
+ISOSTAT_INLINE void face_shells(PairFrame3<V>& f, V radius_sum) {
+  const V side = select(radius_sum < V(0.0), V(-1.0), V(1.0));
+  for (V& n : f.n) n = side * n;
+  f.distance = side * f.distance;
+  f.gap = f.distance - radius_sum;
+  f.lever_ratio = side * f.lever_ratio;
+}
+
 // Velocity of slip over a step, with the lever arms of its middle: a rigid rotation slips nowhere. With those of its
 // end it would, by half a step times the product of the spins along and across n, always to the same side.
 template <class V>
@@ -88,17 +101,20 @@ PairForceTally pair_forces(const PairForceInput& input) {
         if constexpr (kTurns) d.half_velocity[a] = mul_add<V>(V(in.flow_half[a]), d.r[a], d.half_velocity[a]);
       }
     const V radius_sum = load<V>(in.pairs.radius_sum + k);
-    const PairFrame3<V> f = pair_frame<V>(d.r, radius_sum);
+    PairFrame3<V> f = pair_frame<V>(d.r, radius_sum);
+    if constexpr (Law::Normal::unlike) face_shells(f, radius_sum);
     const auto contact = f.gap < zero;
     const V overlap = max(-f.gap, zero);
     const V stiffness = Law::Normal::stiffens ? load<V>(in.pairs.stiffness + k) : V(law.normal_stiffness);
-    const law::Repulsion<V> elastic = Law::Normal::force(stiffness, overlap);
+    law::Repulsion<V> elastic = Law::Normal::force(stiffness, overlap);
+    V damping_root = Law::Normal::damping_root(elastic.root);
+    if constexpr (Law::Normal::unlike) soft_normal<V>(in.pairs, k, overlap, elastic.repulsion, damping_root);
 
     V normal = elastic.repulsion, damping(0.0), receding(0.0);
     if constexpr (Law::Adhesion::acts) normal = normal + Law::Adhesion::force(law, f.gap);
     if constexpr (Law::Damping::acts) {
       receding = dot_3d<V>(f.n, d.velocity);
-      damping = load<V>(in.pairs.damping + k) * Law::Normal::damping_root(elastic.root);
+      damping = load<V>(in.pairs.damping + k) * damping_root;
       if constexpr (!Law::Normal::stiffens) damping = select(contact, damping, zero);
       normal = mul_add<V>(-damping, receding, normal);
     }
@@ -112,14 +128,18 @@ PairForceTally pair_forces(const PairForceInput& input) {
       const ContactTurn<V> turn =
           contact_turn<V>(inverse, receded, slide, dot_3d<V>(f.n, d.half_surface_sum) * per_radius * dt);
       if constexpr (Law::Friction::acts) {
-        const V limit = V(law.friction) * elastic.repulsion;
+        V friction(law.friction), ratio(in.tangential_ratio);
+        if constexpr (Law::Normal::unlike)
+          friction = load<V>(in.pairs.friction + k), ratio = load<V>(in.pairs.tangential_ratio + k);
+        const V limit = friction * elastic.repulsion;
         Real3<V> tangential = carried_tangential<V>(load<V>(in.pairs.tangential, k), f.n, turn);
         V softened(0.0), spring = select(contact, V(law.tangential_stiffness), zero);
         if constexpr (Law::Normal::stiffens) {
           // |r| - |r_old|: a chord of a rotation is no change of the distance
           const V lengthened = mul_add<V>(V(-0.5) * inverse, dot_3d<V>(slide, slide), receded);
           softened = sqrt(overlap / max(overlap + max(lengthened, zero), V(kNoOverlap)));
-          spring = V(in.tangential_ratio) * stiffness * elastic.root;
+          spring = ratio * stiffness * elastic.root;
+          if constexpr (Law::Normal::unlike) soft_tangential<V>(in.pairs, k, overlap, lengthened, spring, softened);
         } else {
           softened = select(contact, one, zero);
         }
@@ -127,6 +147,8 @@ PairForceTally pair_forces(const PairForceInput& input) {
         for (std::size_t a = 0; a < 3; ++a)
           tangential[a] = mul_add<V>(-(spring * dt), slip[a], softened * tangential[a]);
         shorten<V>(tangential, limit);
+        if constexpr (Law::Normal::unlike)  // below the threshold of a soft contact: no zero with a sign
+          for (V& t : tangential) t = select(limit > zero, t, zero);
         store<V>(in.pairs.tangential, k, tangential);
         if constexpr (Law::Damping::acts) {
           const Real3<V> sliding = without_lever<V>(without_normal<V>(d.velocity, f.n, receding), f, d.surface_sum);

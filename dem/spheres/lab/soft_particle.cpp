@@ -36,8 +36,7 @@ class Experiment {
       approach((next - delta) * radius_);
       relax();
       delta = next;
-      const Vec3 force = force_on_partner();
-      result_.normal.push_back({delta, dot(force, kSoftApproach), fire_residual(*solver_), largest_overlap()});
+      result_.normal.push_back({delta, normal_force(), fire_residual(*solver_), largest_overlap()});
       if (test_.alpha.empty()) continue;
       const State<Spheres> pressed = snapshot();
       rotated(delta, 0);
@@ -68,17 +67,40 @@ class Experiment {
       result_.grains = report.grains;
       result_.solid_fraction = report.solid_fraction;
       result_.exponent = report.exponent.value;
+      result_.softs = static_cast<std::size_t>(std::count(grains.soft.begin(), grains.soft.end(), 1));
       add_soft_particle(p, grains, {}, kFirstSoft);
     }
     if (test_.partner == SoftPartner::soft)
       add_soft_particle(p, insert_grains<3>(test_.insertion, seed + kSecondStream), (2 * radius_) * kSoftApproach,
                         kSecondSoft);
+    else if (test_.partner == SoftPartner::cage)
+      for (int face = 0; face < kFaces; ++face) p.walls.push_back(cage_wall(face));
     else
-      p.walls.push_back(soft_partner_wall(radius_));
-    set_sphere_inertia(p.bodies, test_.density);
+      p.walls.push_back(partner_wall());
+    set_sphere_inertia(p, {test_.density, test_.density, test_.soft_density});
+    for (std::size_t k = 0; k < p.bodies.size(); ++k)
+      if (p.group[k] == kFirstSoft)
+        result_.density += p.bodies.mass[k] / (4.0 / 3 * std::numbers::pi * radius_ * radius_ * radius_);
     if (test_.partner == SoftPartner::none) p.bodies.mass[0] *= kHeavy, p.bodies.inertia[0] *= kHeavy;
-    s.time_step = test_.relaxation.step * time_step_unit(test_);
+    const double smallest = test_.partner == SoftPartner::none ? radius_ : test_.insertion.radius_min;
+    s.time_step = test_.relaxation.step * time_step_unit(test_.law, test_.density, smallest);
     return s;
+  }
+
+  SphereWall partner_wall() const {
+    SphereWall wall = soft_partner_wall(radius_);
+    if (test_.partner != SoftPartner::ball) return wall;
+    wall.shape = WallShape::ball, wall.radius = test_.partner_radius;
+    wall.point += test_.partner_radius * kSoftApproach;
+    return wall;
+  }
+
+  static constexpr int kFaces = 6;
+  SphereWall cage_wall(int face) const {
+    SphereWall wall;
+    wall.normal[face / 2] = face % 2 == 0 ? 1 : -1;
+    wall.point = -radius_ * wall.normal;
+    return wall;
   }
 
   // The first particle, shell and grains, by a distance, at the speed of the protocol.
@@ -86,9 +108,19 @@ class Experiment {
     const double dt = state_.time_step;
     const auto steps = static_cast<std::int64_t>(std::ceil(distance / (test_.relaxation.speed * dt)));
     const Vec3 velocity = (distance / (static_cast<double>(steps) * dt)) * kSoftApproach;
+    if (test_.partner == SoftPartner::cage) return close_cage(norm(velocity), steps);
     solver_->engine().boost(kFirstSoft, velocity);
     solver_->run(steps);
     solver_->engine().boost(kFirstSoft, -1.0 * velocity);
+  }
+
+  void close_cage(double speed, std::int64_t steps) {
+    SphereEngine& engine = solver_->engine();
+    const std::size_t first = engine.walls().size() - kFaces;
+    for (std::size_t k = first; k < engine.walls().size(); ++k)
+      engine.set_wall_velocity(k, speed * engine.walls()[k].normal);
+    solver_->run(steps);
+    for (std::size_t k = first; k < engine.walls().size(); ++k) engine.set_wall_velocity(k, {});
   }
 
   // The first particle rigidly about its centre, little by little.
@@ -119,6 +151,15 @@ class Experiment {
   void rotated(double delta, double alpha) {
     const Vec3 force = force_on_partner();
     result_.tangential.push_back({delta, alpha, dot(force, kSoftApproach), dot(force, kSlip), dot(force, kAxis)});
+  }
+
+  double normal_force() const {
+    if (test_.partner != SoftPartner::cage) return dot(force_on_partner(), kSoftApproach);
+    const SphereEngine& e = solver_->engine();
+    double sum = 0;
+    for (std::size_t k = e.walls().size() - kFaces; k < e.walls().size(); ++k)
+      sum -= dot(e.force_on_wall(k), e.walls()[k].normal);
+    return sum / kFaces;
   }
 
   Vec3 force_on_partner() const {
@@ -174,10 +215,9 @@ SoftParticleTest soft_particle_defaults(SoftPartner partner, SoftProtocol protoc
   return t;
 }
 
-double time_step_unit(const SoftParticleTest& test) {
-  const double radius = test.partner == SoftPartner::none ? test.insertion.shell_radius : test.insertion.radius_min;
-  const double mass = test.density * 4 / 3 * std::numbers::pi * radius * radius * radius;
-  const double k = normal_stiffness(test.law, pair_stiffness(test.law, radius, radius), -0.3 * radius);
+double time_step_unit(const SphereLaw& law, double density, double radius) {
+  const double mass = density * 4 / 3 * std::numbers::pi * radius * radius * radius;
+  const double k = normal_stiffness(law, pair_stiffness(law, radius, radius), -0.3 * radius);
   return 0.35 / std::sqrt(4 * k / mass);
 }
 

@@ -11,14 +11,17 @@
 
 namespace isostat {
 
-enum class SoftPartner { wall, soft, none };  // none: one solid sphere of the shell's radius against the wall
-inline constexpr std::array<std::string_view, 3> kSoftPartnerNames{"wall", "soft", "none"};
+//   none   one solid sphere of the shell's radius against the wall
+//   ball   a solid sphere that nothing moves, in place of the wall
+//   cage   six walls, the faces of a cube, that close in together: as it is pressed in a packing
+enum class SoftPartner { wall, soft, none, ball, cage };
+inline constexpr std::array<std::string_view, 5> kSoftPartnerNames{"wall", "soft", "none", "ball", "cage"};
 
 // How a deformation is relaxed before a force is taken:
 //   paper        the approach at .05 m/s, six waits of .3 s after each of which all velocities are set to zero, one
 //   more quasistatic  an approach sixteen times slower, two waits of .02 s with one stop between fire         the
-//   approach of the paper, a stop, then a relaxation without dashpots that keeps the springs (FIRE, Bitzek
-//                et al. 2006) to a residual of 1e-3 or 3000 steps
+//   approach of the paper, a stop, then a relaxation without dashpots that keeps the springs (FIRE,
+//                Bitzek et al. 2006) to a residual of 1e-3 or 3000 steps
 enum class SoftProtocol { paper, quasistatic, fire };
 inline constexpr std::array<std::string_view, 3> kSoftProtocolNames{"paper", "quasistatic", "fire"};
 
@@ -35,10 +38,12 @@ Relaxation relaxation_of(SoftProtocol protocol);
 
 struct SoftParticleTest {
   SoftPartner partner = SoftPartner::wall;
+  double partner_radius = 0;  // of a ball, which stands for a solid grain that nothing moves
   Relaxation relaxation;
   InsertionScene insertion;  // of the shell: its radius is R_s
   SphereLaw law;
   double density = 2500;      // of the grains
+  double soft_density = 0;    // of the soft-particles of the next decade that the insertion puts among them
   std::vector<double> delta;  // [R_s] ascending, h_n / R_s
   std::vector<double> alpha;  // [degrees] rotations from each state; empty: no tangential measurement
 };
@@ -48,7 +53,7 @@ SoftParticleTest soft_particle_defaults(SoftPartner partner, SoftProtocol protoc
 
 struct NormalPoint {
   double delta = 0;            // [R_s]
-  double force = 0;            // F_n on the partner
+  double force = 0;            // F_n on the partner; of a cage on each of its walls in the mean
   double residual = 0;         // at the measurement
   double largest_overlap = 0;  // [smaller radius] of any contact: Hertz's law wants it small
 };
@@ -60,8 +65,10 @@ struct TangentialPoint {
 };
 struct SoftMeasurement {
   std::uint64_t seed = 0;
-  std::size_t grains = 0;     // of one particle
-  double solid_fraction = 0;  // volume of its grains over that of the shell
+  std::size_t grains = 0;     // of one particle, with the soft-particles in it
+  std::size_t softs = 0;      // these
+  double solid_fraction = 0;  // volume of its grains, soft-particles among them, over that of the shell
+  double density = 0;         // mass of its grains over the volume of the shell
   double exponent = 0;        // of its sizes, maximum likelihood
   double step = 0;            // [dt1] that was stable
   std::vector<NormalPoint> normal;
@@ -69,7 +76,7 @@ struct SoftMeasurement {
 };
 
 // The stable step of the smallest grain, .35 / sqrt(4 k/m), k the stiffness of two of them at an overlap of .3 radii.
-double time_step_unit(const SoftParticleTest& test);
+double time_step_unit(const SphereLaw& law, double density, double smallest_radius);
 
 // One packing (two with a soft partner, the other of the next seed's stream). A pure function of test and seed. Where
 // it blows up it is measured again with smaller steps. Throws InputError if the packing cannot be made, RunError if it

@@ -21,6 +21,7 @@ struct Repulsion {
 struct NormalLinear {
   static constexpr std::string_view keyword = "linear";
   static constexpr bool stiffens = false;  // stiffnesses depend on the overlap
+  static constexpr bool unlike = false;    // pairs have constants of their own, and some are soft
   template <class Real>
   [[gnu::always_inline]] static Repulsion<Real> force(Real stiffness, Real overlap) {
     return {stiffness * overlap, Real(1.0)};
@@ -35,6 +36,7 @@ struct NormalLinear {
 struct NormalHertz {
   static constexpr std::string_view keyword = "hertz";
   static constexpr bool stiffens = true;
+  static constexpr bool unlike = false;
   template <class Real>
   [[gnu::always_inline]] static Repulsion<Real> force(Real stiffness, Real overlap) {
     const Real root = sqrt(overlap);
@@ -44,6 +46,13 @@ struct NormalHertz {
   [[gnu::always_inline]] static Real damping_root(Real root) {
     return sqrt(root);
   }
+};
+
+// Hertz's law of bodies of several kinds: materials, shells (radii below zero: distances to them count as negative),
+// and soft-particles, whose contacts the kernel puts in lane by lane (kernel/soft_lanes.hpp).
+struct NormalUnlike : NormalHertz {
+  static constexpr std::string_view keyword = "hertz of unlike bodies";
+  static constexpr bool unlike = true;
 };
 
 }  // namespace isostat::spheres::law

@@ -110,7 +110,8 @@ def run_isostat(program, law, count, seed, directory, finish, fraction):
         os.unlink(state)  # of another scene: pack would ask for --force
     command = [program, "pack", os.path.join(ROOT, "data/scenes/disks-method1-cohesionless.toml"), "-o", state,
                "--seed", str(seed), "--threads", "1", "--timings", timings, "--set", f"grains.count={count}",
-               "--set", f"law.rolling={str(law == 'rolling').lower()}"]
+               "--set", f"law.rolling={str(law == 'rolling').lower()}", "--set", "cell.inertia=0.3",
+               "--set", "stage.0.max_strain_rate=0.05"]
     command += ["--set", f"finish.method={json.dumps(finish)}", "--set", f"step.fraction={fraction}"]
     code = subprocess.run(command, stdin=subprocess.DEVNULL).returncode
     if code not in (0, 3):

@@ -13,6 +13,7 @@
 #include "dem/spheres/certificate.hpp"
 #include "dem/spheres/engine.hpp"
 #include "dem/spheres/sample.hpp"
+#include "dem/spheres/stage.hpp"
 #include "dem/spheres/time_step.hpp"
 #include "dem/state/clusters.hpp"
 #include "dem/state/solid_fraction.hpp"
@@ -61,6 +62,15 @@ TEST(SphereScene, RefusesWhatCannotBe) {
                  "stage.0.strain_rate_3", "not both");
   expect_refused("[container]\nshape = \"box\"\n" + kTime, "container.shape", "containers are of the plane");
   expect_refused(kSoft + "volume_factor = 0.5\n" + kTime, "grains.volume_factor", "1");
+  expect_refused(kSoft + "inserted_fraction = 1.0\n" + kTime, "grains.inserted_fraction", "(0, 1)");
+  expect_refused("[grains]\nsoft_share = 0.3\n" + kPressed, "grains.soft_radius", "greater than 0");
+  expect_refused("[grains]\nsoft_share = 0.3\nsoft_radius = 0.2\n[law]\nsoft_solid = [1.0, 2.0]\n" + kPressed,
+                 "law.soft_solid", "six numbers");
+  expect_refused("[grains]\nsecond_share = 0.3\n[law]\nrolling = true\n" + kPressed, "law.rolling", "false");
+  expect_refused("[grains]\nsecond_share = 0.3\n[law]\nattraction = 1.0\nattraction_range = 0.1\n" + kPressed,
+                 "law.attraction", "0, since grains.second_share > 0");
+  expect_refused("[grains]\nsecond_share = 0.3\n[law]\nnormal = \"linear\"\n" + kPressed, "law.normal", "hertz");
+  expect_refused("[grains]\nsecond_share = 1.3\n" + kPressed, "grains.second_share", "[0, 1]");
   expect_refused(kSoft + "[[stage]]\npressure = 1\n", "stage.0.pressure", "soft-particles have none");
 }
 
@@ -146,6 +156,60 @@ TEST(SphereScene, ASoftParticleApproachesItsPartner) {
   EXPECT_TRUE(std::any_of(s.packing.wall_links.begin(), s.packing.wall_links.end(),
                           [](const WallLink& l) { return l.wall == 1 && l.normal_force > 0; }));
   for (const Vec3& r : s.packing.bodies.position) EXPECT_LT(norm(r - s.packing.walls[0].point), 1.05);
+}
+
+// Materials are drawn by their share and have their density and modulus; soft-particles fill theirs of the volume.
+TEST(SphereScene, MixesMaterialsAndSoftParticles) {
+  const Scene scene = scene_of(
+      "[grains]\ncount = 2000\nsolid_fraction = 0.3\nsecond_share = 0.25\nsecond_density = 5.0\ndensity = 2.0\n"
+      "soft_share = 0.4\nsoft_radius = 0.3\nsoft_density = 1.5\n[law]\nsecond_modulus = 7e4\nwall_friction = 0.7\n" +
+      kPressed);
+  const State<Spheres> s = initial_spheres(scene, 3);
+  const SpherePacking& p = s.packing;
+  ASSERT_EQ(p.kind.size(), p.bodies.size());
+  double soft = 0, solid = 0;
+  std::size_t second = 0;
+  for (std::size_t k = 0; k < p.kind.size(); ++k) {
+    const double r = p.bodies.radius[k], volume = 4.0 / 3 * std::numbers::pi * r * r * r;
+    (p.kind[k] == SphereKind::soft ? soft : solid) += volume;
+    second += p.kind[k] == SphereKind::second;
+    const double density = p.kind[k] == SphereKind::soft ? 1.5 : p.kind[k] == SphereKind::second ? 5.0 : 2.0;
+    EXPECT_NEAR(p.bodies.mass[k], density * volume, 1e-12);
+    if (p.kind[k] == SphereKind::soft) {
+      EXPECT_EQ(r, 0.3);
+    }
+  }
+  EXPECT_NEAR(soft / (soft + solid), 0.4, 1e-3);
+  EXPECT_NEAR(static_cast<double>(second), 500, 80);  // four standard deviations
+  EXPECT_EQ(s.law.second.modulus, 7e4);
+  EXPECT_EQ(s.law.wall_friction, 0.7);
+  EXPECT_LT(s.time_step, initial_spheres(scene_of("[grains]\ncount = 20\n" + kPressed), 3).time_step * 10);
+}
+
+TEST(SphereScene, InsertionReachesAFraction) {
+  Scene scene = scene_of(
+      "[grains]\narrangement = \"insertion\"\nedge = 3.0\ndiameter_min = 0.3\nexponent = 3.5\n"
+      "inserted_fraction = 0.55\n" +
+      kPressed);
+  double volume = 0;
+  for (const double r : initial_spheres(scene, 1).packing.bodies.radius)
+    volume += 4.0 / 3 * std::numbers::pi * r * r * r;
+  EXPECT_NEAR(volume / 27, 0.55, 0.01);
+  scene.sphere_grains.inserted_fraction = 0.95;
+  EXPECT_THROW(initial_spheres(scene, 1), InputError);
+}
+
+// A stage that stops begins at rest.
+TEST(SphereScene, AStageStopsWhatMoves) {
+  StageScene stage;
+  State<Spheres> s = initial_spheres(scene_of("[grains]\ncount = 20\n" + kPressed), 1);
+  s.packing.bodies.velocity[3] = {{1, 2, 3}}, s.packing.bodies.spin[4] = {{1, 2, 3}};
+  prepare_stage(s, stage);
+  EXPECT_EQ(s.packing.bodies.velocity[3], (Vec3{{1, 2, 3}}));
+  stage.stop = true;
+  prepare_stage(s, stage);
+  for (const Vec3& v : s.packing.bodies.velocity) EXPECT_EQ(v, Vec3{});
+  for (const Vec3& w : s.packing.bodies.spin) EXPECT_EQ(w, Vec3{});
 }
 
 }  // namespace
