@@ -369,8 +369,8 @@ TEST(NewtonFinishing, GoesOnFromACheckpointWithinASolve) {
   ASSERT_TRUE(run_stages(straight, {}, hooks, &finisher).all_met());
   EXPECT_TRUE(straight.memory.solve.numbers.empty());
   EXPECT_GT(straight.progress.solves, 0);
-  ASSERT_GT(kept.size(), 8u);
-  for (std::size_t k = 0; k < kept.size(); k += std::max<std::size_t>(1, kept.size() / 8)) {
+  ASSERT_GE(kept.size(), 3u) << "implicit steps of the scene's solves";
+  for (std::size_t k = 0; k < kept.size(); ++k) {
     State<Disks> s = std::get<State<Disks>>(decode_state(kept[k], "memory").state);
     ASSERT_TRUE(run_stages(s, {}, {}, &finisher).all_met());
     EXPECT_EQ(physical_hash(s), physical_hash(straight)) << "checkpoint " << k << " of " << kept.size();
