@@ -82,7 +82,10 @@ Chart log_histograms(const Json* histograms, std::initializer_list<Named> names,
   return chart;
 }
 
-bool loops_applies(const Json& r) { return is_histogram(find(r, {"loops", "histograms", "log10_F_loops"})); }
+bool loops_applies(const Json& r) {
+  const Json* h = find(r, {"loops", "histograms"});
+  return h && h->is_object() && !h->empty();
+}
 
 Plot loops_plot(const Json& r, const std::string& path) {
   if (!loops_applies(r)) refuse_plot(path, "loops.histograms", "no forces of loops; run analyze --only loops");

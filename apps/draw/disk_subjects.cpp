@@ -34,7 +34,7 @@ struct ForceScaleMarks {
   double width_at_scale = kWidthAtF0;  // [a]
 };
 ForceScaleMarks force_scale_marks(const AnalysisInput& input, const ForceReading& reading, double scale) {
-  if (!reading.law_known) return {number_text(scale), kWidthAtF0};
+  if (!reading.law_known) return {number_text(scale), kWidthAtAP};  // the scale is a mean force
   const bool by_attraction = input.state.law.attraction >= scale;
   const bool by_stress = !(heaviest_weight(input.packing(), input.state.scene.gravity) >= scale);
   return {by_attraction ? rich("`F`_{0}")

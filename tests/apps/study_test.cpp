@@ -342,7 +342,7 @@ TEST_F(Study, OptionsOfTheAnalysisActAndMakeReportsAnew) {
     return table("out/study.csv");
   };
   const DataTable plain = small("k_max = 12\n"),
-                  other = small("k_max = 12\npore_size = .25\nk_window = [0.5, 9]\nfit_constant = \"zero\"\n");
+                  other = small("k_max = 12\npore_size = 0.25\nk_window = [0.5, 9]\nfit_constant = \"zero\"\n");
   EXPECT_EQ(plain.find("pores.small.size")->value.at(0), 1);
   EXPECT_EQ(other.find("pores.small.size")->value.at(0), 0.25);
   EXPECT_EQ(other.find("scattering.fit.k_limit")->value.at(0), 9);
