@@ -50,7 +50,14 @@ Json merge_numbers(const Values& values) {
   return statistics(sample, values.size());
 }
 
+// A quantity with a standard error beside it, in a fit that is not identifiable: no result, and so no part of a mean.
+bool is_untold(const Json& fit, const std::string& key) {
+  if (!fit.contains("identifiable") || fit["identifiable"] != false) return false;
+  return key.ends_with("_error") || key == "correlation" || fit.contains(key + "_error");
+}
+
 Json merge_objects(const Values& values) {
+  static const Json untold;
   std::vector<std::string> keys;
   for (const Json* v : defined(values))
     for (const auto& [k, unused] : v->items())
@@ -58,7 +65,8 @@ Json merge_objects(const Values& values) {
   Json json = Json::object();
   for (const std::string& k : keys) {
     Values members;
-    for (const Json* v : values) members.push_back(v && v->is_object() && v->contains(k) ? &v->at(k) : nullptr);
+    for (const Json* v : values)
+      members.push_back(!v || !v->is_object() || !v->contains(k) ? nullptr : is_untold(*v, k) ? &untold : &v->at(k));
     json[k] = merge(k, members);
   }
   return json;

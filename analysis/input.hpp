@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "analysis/link_network.hpp"
+#include "analysis/network/force_measure.hpp"
 #include "analysis/sphere_network.hpp"
+#include "analysis/structure/fit_constant.hpp"
 #include "dem/disks/disks.hpp"
 #include "dem/spheres/spheres.hpp"
 #include "dem/state/packing.hpp"
@@ -29,6 +31,15 @@ struct AnalysisOptions {
   int most_vectors = 20;                // --vectors: of each basis of the section bases
   std::vector<double> stiffness;        // --stiffness: K_N, K_T, K_R of a packing without a law, as given
   double k_max = 0;                     // --k-max [1/length]; 0: the section's default
+  using Window = std::optional<std::array<double, 2>>;
+  Window k_window;                                   // --k-window [1/length]: of the fits of I(k); none: the default
+  Window r_window;                                   // --r-window [length]: of the fits of C(r) and M(r)
+  Window pore_window;                                // --pore-window [length]: of the exponent of pore sizes
+  FitConstant fit_constant = FitConstant::free;      // --fit-constant: of Eq. 28
+  bool window_scan = false;                          // --window-scan: fits of I(k) and C(r) in other windows, too
+  std::optional<double> pore_size;                   // --pore-size [length]: what a small pore is; none: a
+  std::optional<double> threshold;                   // --threshold [force]: what a stressed link bears; none: F1/100
+  ForceMeasure force_measure = ForceMeasure::total;  // --force: of what the threshold is
 };
 
 struct AnalysisInput {

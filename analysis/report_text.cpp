@@ -57,17 +57,27 @@ std::string short_text(const Json& v) {
   return text + "]";
 }
 
+// A fit without a result is said to be one, and its numbers are not shown.
+bool is_untold(const Json& fit) { return fit.contains("identifiable") && fit["identifiable"] == false; }
+
+void add_line(std::string& text, const std::string& name, const std::string& value) {
+  std::string line = "  " + name;
+  line.resize(std::max<std::size_t>(line.size() + 2, 32), ' ');
+  text += line + value + '\n';
+}
+
 void add_lines(std::string& text, const std::string& prefix, const Json& object) {
   for (const auto& [key, v] : object.items()) {
     const std::string name = prefix + key;
     if (is_histogram(v)) {
       continue;  // for --json and --csv
+    } else if (v.is_object() && is_untold(v)) {
+      const Json message = v.value("message", Json());
+      add_line(text, name, "NOT IDENTIFIABLE" + (message.is_string() ? ": " + message.get<std::string>() : ""));
     } else if (v.is_object() && !is_statistic(v)) {
       add_lines(text, name + ".", v);
     } else {
-      std::string line = "  " + name;
-      line.resize(std::max<std::size_t>(line.size() + 2, 32), ' ');
-      text += line + short_text(v) + '\n';
+      add_line(text, name, short_text(v));
     }
   }
 }

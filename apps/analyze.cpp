@@ -1,15 +1,14 @@
 // isostat analyze INPUT... : what the report holds is analysis/report.hpp; here are only arguments and files.
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "analysis/ensemble.hpp"
 #include "analysis/load_input.hpp"
 #include "analysis/report.hpp"
 #include "analysis/report_text.hpp"
+#include "apps/analysis_options.hpp"
 #include "apps/arguments.hpp"
 #include "apps/commands.hpp"
 #include "dem/files/atomic_file.hpp"
@@ -17,44 +16,6 @@
 
 namespace isostat {
 namespace {
-
-// K_N[,K_T[,K_R]], each positive.
-std::vector<double> stiffness_of(const std::string& text) {
-  std::vector<double> all;
-  std::istringstream in(text);
-  for (std::string part; std::getline(in, part, ',');) {
-    std::size_t used = 0;
-    double value = 0;
-    try {
-      value = std::stod(part, &used);
-    } catch (const std::exception&) {
-      used = 0;
-    }
-    if (used == 0 || used != part.size() || !(value > 0) || !std::isfinite(value)) all.resize(4);
-    all.push_back(value);
-  }
-  if (all.empty() || all.size() > 3 || text.back() == ',')
-    throw InputError("command line", 0, "--stiffness", text, "is K_N or K_N,K_T or K_N,K_T,K_R, positive numbers");
-  return all;
-}
-
-AnalysisOptions options_of(const Arguments& arguments) {
-  AnalysisOptions options;
-  if (const auto law = arguments.choice("--law", kNetworkLawNames)) options.law = network_law_named(*law);
-  options.cell_free = arguments.choice("--cell", {"fixed", "free"}).value_or("fixed") == "free";
-  options.prestress = arguments.has("--prestress");
-  options.near_null = arguments.has("--near-null");
-  options.most_vectors = static_cast<int>(arguments.integer("--vectors", 1, 1000000).value_or(options.most_vectors));
-  options.gap_tolerance = arguments.number("--gap-tolerance");
-  if (options.gap_tolerance && *options.gap_tolerance < 0)
-    throw InputError("command line", 0, "--gap-tolerance", *arguments.value("--gap-tolerance"), "must not be negative");
-  const auto k_max = arguments.number("--k-max");
-  if (k_max && !(*k_max > 0))
-    throw InputError("command line", 0, "--k-max", *arguments.value("--k-max"), "must be positive");
-  options.k_max = k_max.value_or(0);
-  if (const auto text = arguments.value("--stiffness")) options.stiffness = stiffness_of(*text);
-  return options;
-}
 
 // One report an input, and the rows of its long tables, one file for each; faults of all inputs are listed together.
 class Analysis {
@@ -113,24 +74,27 @@ int analyze_command(int argc, char** argv) {
        {"--prestress", "", "modes: those of the full tangent too, geometric term included (not symmetric)"},
        {"--near-null", "", "rigidity: the smallest nonzero singular values also above 20000 degrees of freedom"},
        {"--vectors", "N", "bases: at most N floppy modes and N self-stress states; default 20"},
-       {"--k-max", "K", "largest wave number of the scattering intensity"}},
+       {"--k-max", "K", "largest wave number of the scattering intensity"},
+       {"--k-window", "K1,K2",
+        "scattering: wave numbers that Eqs. 26 and 28 are fitted to; default 2 pi/a at the most"},
+       {"--fit-constant", "free|nonnegative|zero", "scattering: the constant of Eq. 28; default free"},
+       {"--r-window", "R1,R2", "dacf: distances that Eq. 27 and the mass-radius relation are fitted to"},
+       {"--window-scan", "", "scattering, dacf: the fits in other windows, too"},
+       {"--pore-size", "R", "pores: whose share of the void is told, those with a radius below R; default a"},
+       {"--pore-window", "R1,R2",
+        "pores: radii that the exponent of their distribution is fitted to; default from a/2"},
+       {"--threshold", "F", "stressed: least force of a stressed link; default F1/100"},
+       {"--force", "total|normal", "stressed: of what the threshold is; default total"}},
       {"INPUT...", "Measures what a packing is and what holds it up; several inputs make one ensemble."});
   if (arguments.inputs().empty())
     throw InputError("command line", 0, "INPUT", "", "at least one state, network or foreign packing is needed");
-  const AnalysisOptions options = options_of(arguments);
+  const AnalysisOptions options = analysis_options(arguments);
   const auto only_text = arguments.value("--only");
   const std::vector<std::string> only = parse_section_names(only_text.value_or(""));
   if (only_text && only.empty())
     throw InputError("command line", 0, "--only", *only_text, "names no section: " + names);
 
-  const auto belongs = [&](std::string_view option, std::string_view section) {
-    if (arguments.has(std::string(option)) && std::find(only.begin(), only.end(), section) == only.end())
-      throw InputError("command line", 0, std::string(option), "",
-                       "belongs to the section " + std::string(section) + ": name it in --only");
-  };
-  belongs("--prestress", "modes");
-  belongs("--near-null", "rigidity");
-  belongs("--vectors", "bases");
+  refuse_options_of_other_sections(arguments, only);
 
   const auto json_path = arguments.value("--json"), csv_directory = arguments.value("--csv");
   Analysis analysis(options, only, csv_directory.has_value());

@@ -93,7 +93,7 @@ ForceConvention convention_of(const Arguments& arguments) {
 std::string what_to_draw(const Arguments& arguments, bool forces_known) {
   const bool asks_forces = arguments.has("--threshold") || arguments.has("--width");
   const std::string what = arguments.value("--what").value_or(asks_forces || forces_known ? "forces" : "grains");
-  if (asks_forces && what != "forces")
+  if (asks_forces && what != "forces" && what != "stressed")
     throw InputError("command line", 0, "--what", what, "--threshold and --width are about forces");
   if (arguments.has("--mode") && what != "modes")
     throw InputError("command line", 0, "--what", what, "--mode is about modes");
@@ -105,7 +105,8 @@ int draw_command(int argc, char** argv) {
       argc, argv,
       {{"-o", "FILE", "the picture: .svg, .pdf or .png; of several inputs FILM.html, FILM.svg or a folder DIR/"},
        {"--what", "KIND",
-        "grains, forces, pores, clusters, modes or velocity; default: forces, or grains if the file gives no forces"},
+        "grains, forces, stressed, loops, pores, clusters, modes or velocity; default: forces, or grains if the file "
+        "gives no forces"},
        {"--threshold", "F", "links whose total force is below F are blue, disks touched only by such light grey"},
        {"--width", "MEASURE", "line width by normal or total force; default: normal, with --threshold total"},
        {"--mode", "N", "which vibration mode, from the lowest above the zero modes; default 1"},
@@ -117,7 +118,7 @@ int draw_command(int argc, char** argv) {
       {"INPUT... -o FILE",
        "Draws a packing: its grains, the forces between them, pores, rigid clusters, motion; several as a film."});
   arguments.require_inputs(1, std::numeric_limits<std::size_t>::max(), "packings");
-  (void)arguments.choice("--what", {"grains", "forces", "pores", "clusters", "modes", "velocity"});
+  (void)arguments.choice("--what", {"grains", "forces", "stressed", "loops", "pores", "clusters", "modes", "velocity"});
   (void)arguments.choice("--width", {"normal", "total"});
   if (const auto threshold = arguments.number("--threshold"); threshold && !(*threshold > 0))
     throw InputError("command line", 0, "--threshold", *arguments.value("--threshold"), "must be positive");

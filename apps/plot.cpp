@@ -38,18 +38,19 @@ int plot_command(int argc, char** argv) {
       argc, argv,
       {{"-o", "FILE", "the figure; its extension is the format: .svg, .pdf or .png"},
        {"--what", "PLOT",
-        "force-histogram, angle, NT, coordination, scattering, pores, series, law-fit, bench or study; default: the "
-        "only one that the file has data for"},
+        "force-histogram, angle, NT, coordination, scattering, correlation, pores, stressed, loops, two-contacts, "
+        "series, law-fit, bench or study; default: the only one that the file has data for"},
        {"--log", "", "law-fit: logarithmic axes, of the forces against the deformation alone"},
        {"--x", "COLUMN", "study.csv: what to plot against; a name's end is enough (friction)"},
        {"--y", "COLUMN", "study.csv: what to plot, with its standard error"}},
       {"RESULT.json|TABLE.csv -o FILE",
        "Plots results of analyze, lab and study, series of pack, and benchmark tables."});
   arguments.require_inputs(1, 1, "one result (.json) or table (.csv)");
-  const std::string what = arguments
-                               .choice("--what", {"force-histogram", "angle", "NT", "coordination", "scattering",
-                                                  "pores", "series", "law-fit", "bench", "study"})
-                               .value_or("");
+  const std::string what =
+      arguments
+          .choice("--what", {"force-histogram", "angle", "NT", "coordination", "scattering", "correlation", "pores",
+                             "stressed", "loops", "two-contacts", "series", "law-fit", "bench", "study"})
+          .value_or("");
   const FigureFile file(arguments.required("-o"));
   Plot plot = plot_of(arguments, arguments.inputs()[0], what);
   if (arguments.has("--log")) {

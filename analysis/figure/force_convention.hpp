@@ -4,11 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include "analysis/network/force_measure.hpp"
 #include "dem/state/packing.hpp"
 
 namespace isostat {
-
-enum class ForceMeasure { normal, total };  // |N|, or |F| = sqrt(N^2 + T^2)
 
 struct ForceConvention {
   ForceMeasure width = ForceMeasure::normal;  // what line width is proportional to

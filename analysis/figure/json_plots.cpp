@@ -4,9 +4,10 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "analysis/figure/json_plot_list.hpp"
+#include "analysis/figure/json_values.hpp"
 #include "analysis/figure/nice_numbers.hpp"
 #include "analysis/figure/plot.hpp"
-#include "analysis/structure/fractal_fit.hpp"
 #include "dem/input_error.hpp"
 
 namespace isostat {
@@ -14,88 +15,14 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
-
-[[noreturn]] void refuse(const std::string& path, const std::string& key, const std::string& why) {
-  throw InputError(path, 0, key, "", why);
-}
-
-const Json* find(const Json& json, std::initializer_list<const char*> keys) {
-  const Json* at = &json;
-  for (const char* key : keys) {
-    if (!at->is_object() || !at->contains(key)) return nullptr;
-    at = &(*at)[key];
-  }
-  return at;
-}
-
-// A number, null, or {"mean", "se"} of an ensemble.
-struct Value {
-  double mean = kUndefined, error = kUndefined;
-};
-Value value_of(const Json* json) {
-  if (!json) return {};
-  if (json->is_number()) return {json->get<double>(), kUndefined};
-  if (json->is_object()) return {value_of(find(*json, {"mean"})).mean, value_of(find(*json, {"se"})).mean};
-  return {};
-}
-
-struct Values {
-  std::vector<double> mean, error;
-};
-Values values_of(const Json* json) {
-  Values values;
-  if (!json || !json->is_array()) return values;
-  for (const Json& entry : *json) {
-    const Value v = value_of(&entry);
-    values.mean.push_back(v.mean), values.error.push_back(v.error);
-  }
-  return values;
-}
-
-RichText force_unit(const Json& result) {
-  const Json* force = find(result, {"units", "force"});
-  if (!force || !force->is_string()) return {};
-  return *force == "F0" ? rich("`F`_{0}") : *force == "a P" ? rich("`aP`") : plain(force->get<std::string>());
-}
-RichText over(const RichText& quantity, const RichText& unit) {
-  return unit.empty() ? quantity : quantity + plain(" / ") + unit;
-}
-
 // --- histograms of forces ---
-
-bool is_histogram(const Json* h) {
-  const Json *edges = h ? find(*h, {"edges"}) : nullptr, *density = h ? find(*h, {"density"}) : nullptr;
-  return edges && density && edges->is_array() && density->is_array() && !density->empty() &&
-         edges->size() == density->size() + 1;
-}
-
-Curve steps(const Json& histogram) {
-  Curve curve;
-  curve.style = CurveStyle::steps;
-  curve.x = values_of(find(histogram, {"edges"})).mean;
-  const Values density = values_of(find(histogram, {"density"}));
-  curve.y = density.mean, curve.error = density.error;
-  return curve;
-}
-
-// Without the empty bins at both ends.
-Curve trimmed(Curve curve) {
-  const auto filled = [](double d) { return d > 0; };
-  const auto first = std::find_if(curve.y.begin(), curve.y.end(), filled) - curve.y.begin();
-  const auto after = curve.y.rend() - std::find_if(curve.y.rbegin(), curve.y.rend(), filled);
-  if (first >= after) return curve;
-  curve.x = std::vector<double>(curve.x.begin() + first, curve.x.begin() + after + 1);
-  curve.y = std::vector<double>(curve.y.begin() + first, curve.y.begin() + after);
-  if (!curve.error.empty()) curve.error = std::vector<double>(curve.error.begin() + first, curve.error.begin() + after);
-  return curve;
-}
 
 bool force_histogram_applies(const Json& r) { return is_histogram(find(r, {"forces", "histograms", "N"})); }
 
 Plot force_histogram_plot(const Json& r, const std::string& path) {
   const Json* n = find(r, {"forces", "histograms", "N"});
-  if (!is_histogram(n)) refuse(path, "forces.histograms.N", "no histogram of normal forces; run analyze --only forces");
+  if (!is_histogram(n))
+    refuse_plot(path, "forces.histograms.N", "no histogram of normal forces; run analyze --only forces");
   const RichText unit = force_unit(r);
   Plot plot;
   Chart chart;
@@ -120,7 +47,7 @@ bool angle_applies(const Json& r) { return is_histogram(find(r, {"forces", "hist
 Plot angle_plot(const Json& r, const std::string& path) {
   const Json* angle = find(r, {"forces", "histograms", "angle"});
   if (!is_histogram(angle))
-    refuse(path, "forces.histograms.angle", "no histogram of angles; run analyze --only forces");
+    refuse_plot(path, "forces.histograms.angle", "no histogram of angles; run analyze --only forces");
   Chart chart;
   chart.x.title = rich("angle between force and normal, `θ` (degrees)");
   chart.y.title = rich("probability density (1/degree)");
@@ -135,7 +62,7 @@ bool nt_applies(const Json& r) {
 }
 
 Plot nt_plot(const Json& r, const std::string& path) {
-  if (!nt_applies(r)) refuse(path, "forces.histograms.NT", "no pairs of forces; run analyze --only forces");
+  if (!nt_applies(r)) refuse_plot(path, "forces.histograms.NT", "no pairs of forces; run analyze --only forces");
   const Json& nt = *find(r, {"forces", "histograms", "NT"});
   Curve cells;
   cells.style = CurveStyle::cells;
@@ -144,7 +71,7 @@ Plot nt_plot(const Json& r, const std::string& path) {
   for (const Json& row : nt["density"])
     for (const double d : values_of(&row).mean) cells.y.push_back(d);
   if (cells.x.size() < 2 || cells.x2.size() < 2 || cells.y.size() != (cells.x.size() - 1) * (cells.x2.size() - 1))
-    refuse(path, "forces.histograms.NT", "edges and density do not fit each other");
+    refuse_plot(path, "forces.histograms.NT", "edges and density do not fit each other");
   Chart chart;
   chart.x.title = over(rich("`N`"), force_unit(r));
   chart.y.title = over(rich("`T`"), force_unit(r));
@@ -161,7 +88,7 @@ bool coordination_applies(const Json& r) {
 }
 
 Plot coordination_plot(const Json& r, const std::string& path) {
-  if (!coordination_applies(r)) refuse(path, "counts.x", "no coordination numbers; run analyze --only counts");
+  if (!coordination_applies(r)) refuse_plot(path, "counts.x", "no coordination numbers; run analyze --only counts");
   const Values x = values_of(find(r, {"counts", "x"}));
   Curve bars;
   bars.style = CurveStyle::bars;
@@ -170,7 +97,7 @@ Plot coordination_plot(const Json& r, const std::string& path) {
     bars.y.push_back(100 * x.mean[k]), bars.error.push_back(100 * x.error[k]);
   }
   if (std::none_of(bars.y.begin(), bars.y.end(), [](double v) { return std::isfinite(v); }))
-    refuse(path, "counts.x", "is undefined: every grain is a rattler");
+    refuse_plot(path, "counts.x", "is undefined: every grain is a rattler");
   Chart chart;
   chart.x.title = rich("number of interacting neighbours `k`");
   chart.x.whole = true;
@@ -178,100 +105,6 @@ Plot coordination_plot(const Json& r, const std::string& path) {
   const Value z = value_of(find(r, {"counts", "z"}));
   if (std::isfinite(z.mean)) chart.notes.push_back(rich("`z` = ") + number_text_with_error(z.mean, z.error));
   chart.curves.push_back(std::move(bars));
-  return {{chart}, false};
-}
-
-// --- scattering (Fig. 23) ---
-
-bool scattering_applies(const Json& r) {
-  const Json *k = find(r, {"scattering", "k"}), *i = find(r, {"scattering", "I"});
-  return k && i && k->is_array() && i->is_array() && !k->empty() && k->size() == i->size();
-}
-
-Plot scattering_plot(const Json& r, const std::string& path) {
-  if (!scattering_applies(r)) refuse(path, "scattering", "no scattering function; run analyze --only scattering");
-  // An ensemble of any sizes: all modes in one curve with its own fit.
-  const Json *pooled = find(r, {"scattering", "pooled"}), &s = pooled ? *pooled : r["scattering"];
-  const Values intensity = values_of(find(s, {"I"})), sigma = values_of(find(s, {"sigma"}));
-  Curve points;
-  points.style = CurveStyle::points;
-  points.x = values_of(find(s, {"k"})).mean;
-  points.y = intensity.mean;
-  points.error = intensity.error;  // of an ensemble; else the error within the bin
-  for (std::size_t b = 0; b < points.error.size(); ++b)
-    if (!std::isfinite(points.error[b]) && b < sigma.mean.size()) points.error[b] = sigma.mean[b];
-  double low = INFINITY, high = 0;
-  for (std::size_t b = 0; b < points.x.size(); ++b)
-    if (points.x[b] > 0 && points.y[b] > 0) low = std::min(low, points.x[b]), high = std::max(high, points.x[b]);
-  if (!(high > 0)) refuse(path, "scattering.I", "has no positive value");
-  const bool reduced = find(r, {"units", "length"}) != nullptr;
-  Chart chart;
-  chart.x = {reduced ? rich("`ka`") : rich("`k`"), true, {}, {}, false};
-  chart.y = {reduced ? rich("`I`(`k`) / `a`^{2}") : rich("`I`(`k`)"), true, {}, {}, false};
-  chart.height = 280;
-  points.label = rich("`I`(`k`)");
-  chart.curves.push_back(std::move(points));
-  const Value d = value_of(find(s, {"fit", "d_F"})), xi = value_of(find(s, {"fit", "xi"})),
-              amplitude = value_of(find(s, {"fit", "amplitude"})), constant = value_of(find(s, {"fit", "constant"}));
-  if (std::isfinite(d.mean) && std::isfinite(xi.mean) && std::isfinite(amplitude.mean)) {
-    Curve fit;
-    fit.label = rich("fit, Eq. 28");
-    fit.color = curve_color(1);
-    constexpr int kPoints = 200;
-    for (int p = 0; p <= kPoints; ++p) {
-      const double k = low * std::pow(high / low, static_cast<double>(p) / kPoints);
-      fit.x.push_back(k);
-      fit.y.push_back(
-          fractal_intensity(k, d.mean, xi.mean, amplitude.mean, std::isfinite(constant.mean) ? constant.mean : 0));
-    }
-    chart.curves.push_back(std::move(fit));
-    const auto error = [&](const Value& v, const char* key) {
-      return std::isfinite(v.error) ? v.error : value_of(find(s, {"fit", key})).mean;
-    };
-    chart.notes.push_back(rich("`d`_{F} = ") + number_text_with_error(d.mean, error(d, "d_F_error")));
-    chart.notes.push_back(rich(reduced ? "`ξ` / `a` = " : "`ξ` = ") +
-                          number_text_with_error(xi.mean, error(xi, "xi_error")));
-  }
-  return {{chart}, false};
-}
-
-// --- pores: how many are larger than R ---
-
-bool pores_applies(const Json& r) {
-  const Json* list = find(r, {"pores", "list"});
-  return list && list->is_array() && !list->empty();
-}
-
-// Entries are pores, or in an ensemble lists of pores.
-void collect_radii(const Json& list, std::vector<double>& radii) {
-  for (const Json& entry : list) {
-    if (entry.is_array())
-      collect_radii(entry, radii);
-    else if (const double radius = value_of(find(entry, {"R"})).mean; radius > 0)
-      radii.push_back(radius);
-  }
-}
-
-Plot pores_plot(const Json& r, const std::string& path) {
-  std::vector<double> radii;
-  if (pores_applies(r)) collect_radii(r["pores"]["list"], radii);
-  if (radii.empty()) refuse(path, "pores.list", "has no finite pore with a radius; run analyze --only pores");
-  std::sort(radii.begin(), radii.end());
-  Curve curve;
-  for (std::size_t i = 0; i < radii.size(); ++i) {
-    const double before = static_cast<double>(radii.size() - i), after = before - 1;
-    curve.x.insert(curve.x.end(), {radii[i], radii[i]});
-    curve.y.insert(curve.y.end(), {before, after});
-  }
-  const bool reduced = find(r, {"units", "length"}) != nullptr;
-  Chart chart;
-  chart.x = {reduced ? rich("equivalent radius `R` / `a`") : rich("equivalent radius `R`"), true, {}, {}, false};
-  chart.y = {rich("number of pores larger than `R`"), true, {}, {}, false};
-  chart.curves.push_back(std::move(curve));
-  const Value mean = value_of(find(r, {"pores", "mean_radius_weighted"}));
-  if (std::isfinite(mean.mean))
-    chart.notes.push_back(rich(reduced ? "⟨`R`⟩_{w} / `a` = " : "⟨`R`⟩_{w} = ") +
-                          number_text_with_error(mean.mean, mean.error));
   return {{chart}, false};
 }
 
@@ -364,7 +197,7 @@ bool any_finite(const std::vector<double>& values) {
 }
 
 Plot law_fit_plot(const Json& r, const std::string& path) {
-  if (!law_fit_applies(r)) refuse(path, "normal", "no measured law; run lab soft-particle --json");
+  if (!law_fit_applies(r)) refuse_plot(path, "normal", "no measured law; run lab soft-particle --json");
   Plot plot{{}, true};
   const Json &normal = r["normal"], *tangential = find(r, {"tangential"}), *turned = find(r, {"turned"});
   const bool both = tangential && tangential->is_array() && !tangential->empty();
@@ -403,15 +236,15 @@ Plot law_fit_plot(const Json& r, const std::string& path) {
 }  // namespace
 
 const std::vector<JsonPlot>& json_plots() {
-  static const std::vector<JsonPlot> plots = {
-      {"force-histogram", force_histogram_applies, force_histogram_plot},
-      {"angle", angle_applies, angle_plot},
-      {"NT", nt_applies, nt_plot},
-      {"coordination", coordination_applies, coordination_plot},
-      {"scattering", scattering_applies, scattering_plot},
-      {"pores", pores_applies, pores_plot},
-      {"law-fit", law_fit_applies, law_fit_plot},
-  };
+  static const std::vector<JsonPlot> plots = [] {
+    std::vector<JsonPlot> all = {{"force-histogram", force_histogram_applies, force_histogram_plot},
+                                 {"angle", angle_applies, angle_plot},
+                                 {"NT", nt_applies, nt_plot},
+                                 {"coordination", coordination_applies, coordination_plot}};
+    for (const auto* list : {&structure_plots(), &network_plots()}) all.insert(all.end(), list->begin(), list->end());
+    all.push_back({"law-fit", law_fit_applies, law_fit_plot});
+    return all;
+  }();
   return plots;
 }
 

@@ -10,6 +10,7 @@
 #include "analysis/figure/legend.hpp"
 #include "analysis/figure/motion_marks.hpp"
 #include "analysis/figure/picture_pen.hpp"
+#include "analysis/stiffness/link_classes.hpp"
 
 namespace isostat {
 
@@ -53,6 +54,21 @@ struct ClusterOptions {
   std::vector<bool> hyperstatic;                // one a cluster
 };
 std::unique_ptr<PictureContent> clusters_content(ClusterOptions options);
+
+// Clusters of stressed links: grains in the colour of their cluster, its links red or green by the sign of N and as
+// wide as forces are; the other links faint.
+struct StressedOptions {
+  std::vector<std::int32_t> of_grain, of_link;  // cluster, or -1
+  std::size_t clusters = 0;
+  ForceMeasure width = ForceMeasure::total;
+  double scale = 1;                    // F1
+  double width_at_scale = kWidthAtF0;  // [a] line width of a force F1
+  RichText scale_label, below;         // its name; what the faint links are
+};
+std::unique_ptr<PictureContent> stressed_content(StressedOptions options);
+
+// Links by their class (analysis/stiffness/link_classes.hpp), one a link.
+std::unique_ptr<PictureContent> loops_content(std::vector<LinkClass> classes);
 
 // Pores under the disks, coloured by their equivalent radius; percolating void stays white.
 struct PorePatch {

@@ -12,8 +12,11 @@ nlohmann::ordered_json equilibrium_section(const AnalysisInput& input, const Ana
 nlohmann::ordered_json stress_section(const AnalysisInput& input, const AnalysisOptions& options);
 nlohmann::ordered_json forces_section(const AnalysisInput& input, const AnalysisOptions& options);
 nlohmann::ordered_json percolation_section(const AnalysisInput& input, const AnalysisOptions& options);
+nlohmann::ordered_json stressed_section(const AnalysisInput& input, const AnalysisOptions& options);
+nlohmann::ordered_json two_contacts_section(const AnalysisInput& input, const AnalysisOptions& options);
 
 std::vector<Table> counts_tables(const AnalysisInput& input, const AnalysisOptions& options);
 std::vector<Table> forces_tables(const AnalysisInput& input, const AnalysisOptions& options);
+std::vector<Table> two_contacts_tables(const AnalysisInput& input, const AnalysisOptions& options);
 
 }  // namespace isostat

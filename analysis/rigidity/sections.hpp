@@ -16,6 +16,8 @@ nlohmann::ordered_json bases_section(const AnalysisInput& input, const AnalysisO
 
 std::vector<Table> clusters_tables(const AnalysisInput& input, const AnalysisOptions& options);
 std::vector<Table> modes_tables(const AnalysisInput& input, const AnalysisOptions& options);
+nlohmann::ordered_json loops_section(const AnalysisInput& input, const AnalysisOptions& options);
+std::vector<Table> loops_tables(const AnalysisInput& input, const AnalysisOptions& options);
 std::vector<Table> bases_tables(const AnalysisInput& input, const AnalysisOptions& options);
 
 }  // namespace isostat

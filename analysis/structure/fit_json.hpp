@@ -36,4 +36,19 @@ inline nlohmann::ordered_json fit_json(const FractalFit& f) {
   return json;
 }
 
+// One line of a scan over windows.
+inline nlohmann::ordered_json window_of_fit(const FractalFit& f, const std::array<double, 2>& window) {
+  return {{"from", window[0]},
+          {"to", window[1]},
+          {"points", f.points},
+          {"d_F", defined(f.d_f)},
+          {"d_F_error", defined(f.error[0])},
+          {"xi", defined(f.xi)},
+          {"xi_error", defined(f.error[1])},
+          {"constant", defined(f.constant)},
+          {"chi2_per_dof", defined(f.chi2_per_dof())},
+          {"identifiable", f.identifiable},
+          {"message", f.message}};
+}
+
 }  // namespace isostat

@@ -22,6 +22,8 @@ constexpr double kSameChi2 = 1e-6;     // relative to chi^2 (and absolute near a
 constexpr double kWorstLogError = 1;   // a xi known to less than a factor e is not known
 constexpr double kBeyondWindow = 30;   // xi outside [1/(30 k_max), 30/k_min] is not seen by the data
 
+constexpr const char* kXiUnknown = "xi is not determined: its error exceeds its value";
+
 constexpr int kMostSteps = 100, kMostRestarts = 10;  // of one descent; a good one needs about ten
 
 // A model of the data in the fitted parameters p = (ln amplitude, d_F, ln xi, constant), the last one optional.
@@ -212,7 +214,7 @@ FractalFit fit_from(const Starts& starts, const Problem& problem, const Lengths&
   if (!(fit.xi > lengths.low / kBeyondWindow && fit.xi < lengths.high * kBeyondWindow))
     fit.message = "xi runs out of what the window can tell";
   else if (with_constant && !(log_error < kWorstLogError))
-    fit.message = "xi is not determined: its error exceeds its value";
+    fit.message = kXiUnknown;
   else if (fit.d_f <= kLowestDimension * 1.01 || fit.d_f >= kHighestDimension * 0.99)
     fit.message = "d_F runs to the edge of its range";
   else if (rival)
@@ -250,36 +252,90 @@ FractalFit fit_intensity(std::span<const double> k, std::span<const double> inte
   return fit_from(start_grid(problem, lengths, true), problem, lengths, true);
 }
 
-FractalFit fit_intensity_by_modes(std::span<const double> k, std::span<const double> intensity,
-                                  std::span<const double> modes) {
-  if (k.size() != intensity.size() || k.size() != modes.size())
-    throw std::invalid_argument("fit_intensity_by_modes: as many intensities and modes as wave numbers");
-  const Model model = intensity_of_parameters;
-  std::vector<double> sigma(k.size());
-  const double floor = intensity.empty() ? 0 : 1e-6 * *std::max_element(intensity.begin(), intensity.end());
-  for (std::size_t i = 0; i < k.size(); ++i) sigma[i] = std::max(intensity[i], floor) / std::sqrt(modes[i]);
-  // All starts, then the weights of the best optimum and descents from it until both settle, then all starts again.
-  const auto lengths = lengths_of_waves(k);
-  const Problem problem{model, k, intensity, sigma, lengths};
-  FractalFit fit = fit_from(start_grid(problem, lengths, true), problem, lengths, true);
+namespace {
+
+struct ByModes {
+  std::span<const double> k, intensity, modes;
+  double floor() const {  // of a weight
+    return intensity.empty() ? 0 : 1e-6 * *std::max_element(intensity.begin(), intensity.end());
+  }
+};
+
+std::vector<double> parameters_of(const FractalFit& fit, bool with_constant) {
+  std::vector<double> p{std::log(fit.amplitude), fit.d_f, std::log(fit.xi)};
+  if (with_constant) p.push_back(fit.constant);
+  return p;
+}
+
+// Weights of the best optimum and descents from it until both settle; false: they do not.
+bool settle(const ByModes& data, const Problem& problem, const Lengths& lengths, bool with_constant,
+            std::vector<double>& sigma, FractalFit& fit) {
   constexpr int kFreeRounds = 10, kMostRounds = 60;
   for (int round = 0; round < kMostRounds && std::isfinite(fit.chi2); ++round) {
     const double before_d = fit.d_f, before_xi = fit.xi;
-    for (std::size_t i = 0; i < k.size(); ++i) {
+    for (std::size_t i = 0; i < sigma.size(); ++i) {
       const double now =
-          std::max(fractal_intensity(k[i], fit.d_f, fit.xi, fit.amplitude, fit.constant), floor) / std::sqrt(modes[i]);
+          std::max(fractal_intensity(data.k[i], fit.d_f, fit.xi, fit.amplitude, fit.constant), data.floor()) /
+          std::sqrt(data.modes[i]);
       sigma[i] = round < kFreeRounds ? now : std::sqrt(sigma[i] * now);  // ends a cycle between two fits
     }
-    fit = fit_from({{std::log(fit.amplitude), fit.d_f, std::log(fit.xi), fit.constant}}, problem, lengths, true);
+    fit = fit_from({parameters_of(fit, with_constant)}, problem, lengths, with_constant);
     if (std::abs(fit.d_f - before_d) < kSameOptimum * fit.error[0] &&
         std::abs(fit.xi - before_xi) < kSameOptimum * fit.error[1])
-      return fit_from(start_grid(problem, lengths, true), problem, lengths, true);
+      return true;
   }
-  if (fit.message.empty()) fit.identifiable = false, fit.message = "weights and fit do not settle";
+  return false;
+}
+
+// All starts (or the one that is given), then settling, then all starts again.
+FractalFit fit_by_modes(const ByModes& data, bool with_constant, const FractalFit* start) {
+  if (data.k.size() != data.intensity.size() || data.k.size() != data.modes.size())
+    throw std::invalid_argument("fit_intensity_by_modes: as many intensities and modes as wave numbers");
+  const Model model = intensity_of_parameters;
+  std::vector<double> sigma(data.k.size());
+  for (std::size_t i = 0; i < sigma.size(); ++i)
+    sigma[i] = std::max(data.intensity[i], data.floor()) / std::sqrt(data.modes[i]);
+  const auto lengths = lengths_of_waves(data.k);
+  const Problem problem{model, data.k, data.intensity, sigma, lengths};
+  const auto starts = [&] {
+    return start ? Starts{parameters_of(*start, with_constant)} : start_grid(problem, lengths, with_constant);
+  };
+  FractalFit fit = fit_from(starts(), problem, lengths, with_constant);
+  if (settle(data, problem, lengths, with_constant, sigma, fit)) {
+    if (!start) fit = fit_from(starts(), problem, lengths, with_constant);
+  } else if (fit.message.empty()) {
+    fit.identifiable = false, fit.message = "weights and fit do not settle";
+  }
+  fit.constant_held = !with_constant;
+  if (!with_constant) {
+    fit.error[3] = 0;
+    if (fit.identifiable && !(fit.error[1] < kWorstLogError * fit.xi))
+      fit.identifiable = false, fit.message = kXiUnknown;
+  }
   return fit;
 }
 
-FractalFit fit_correlation(std::span<const double> r, std::span<const double> excess) {
+FractalFit fit_by_modes(const ByModes& data, FitConstant constant, const FractalFit* start) {
+  FractalFit fit = fit_by_modes(data, constant != FitConstant::zero, start);
+  if (constant == FitConstant::nonnegative && fit.constant < 0) fit = fit_by_modes(data, false, start);
+  return fit;
+}
+
+}  // namespace
+
+FractalFit fit_intensity_by_modes(std::span<const double> k, std::span<const double> intensity,
+                                  std::span<const double> modes, FitConstant constant) {
+  return fit_by_modes({k, intensity, modes}, constant, nullptr);
+}
+
+FractalFit refit_intensity_by_modes(std::span<const double> k, std::span<const double> intensity,
+                                    std::span<const double> modes, FitConstant constant, const FractalFit& start) {
+  return fit_by_modes({k, intensity, modes}, constant, &start);
+}
+
+namespace {
+
+FractalFit fit_excess(std::span<const double> r, std::span<const double> excess, const FractalFit* start) {
   if (r.size() != excess.size()) throw std::invalid_argument("fit_correlation: as many values as distances");
   const Model model = [](double x, const double* p) {
     return fractal_correlation(x, p[1], std::exp(p[2]), std::exp(p[0]));
@@ -287,13 +343,24 @@ FractalFit fit_correlation(std::span<const double> r, std::span<const double> ex
   const std::vector<double> sigma(r.size(), 1.0);
   const Lengths lengths = r.empty() ? Lengths{1, 1} : Lengths{r.front(), r.back()};
   const Problem problem{model, r, excess, sigma, lengths};
-  auto fit = fit_from(start_grid(problem, lengths, false), problem, lengths, false);
+  auto fit = fit_from(start ? Starts{parameters_of(*start, false)} : start_grid(problem, lengths, false), problem,
+                      lengths, false);
+  fit.constant_held = true;
   const double scatter = std::sqrt(fit.chi2_per_dof());
   for (std::size_t n = 0; n < 3; ++n) fit.error[n] *= scatter;
   fit.error[3] = 0;
-  if (fit.identifiable && !(fit.error[1] < kWorstLogError * fit.xi))
-    fit.identifiable = false, fit.message = "xi is not determined: its error exceeds its value";
+  if (fit.identifiable && !(fit.error[1] < kWorstLogError * fit.xi)) fit.identifiable = false, fit.message = kXiUnknown;
   return fit;
+}
+
+}  // namespace
+
+FractalFit fit_correlation(std::span<const double> r, std::span<const double> excess) {
+  return fit_excess(r, excess, nullptr);
+}
+
+FractalFit refit_correlation(std::span<const double> r, std::span<const double> excess, const FractalFit& start) {
+  return fit_excess(r, excess, &start);
 }
 
 }  // namespace isostat

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "analysis/structure/fit_constant.hpp"
+
 namespace isostat {
 
 double fractal_intensity(double k, double d_f, double xi, double amplitude, double constant);
@@ -21,6 +23,7 @@ struct FractalFit {
   std::array<std::array<double, 4>, 4> correlation{};
   double chi2 = 0;
   int points = 0, parameters = 4;
+  bool constant_held = false;      // at 0: errors and correlations of the constant are then 0 and not a number
   int starts = 0, agreeing = 0;    // starts tried, and those that ended at the best optimum
   bool identifiable = false;       // one optimum, inside the range that the window can tell
   std::string message;             // what is wrong when it is not
@@ -34,11 +37,18 @@ FractalFit fit_intensity(std::span<const double> k, std::span<const double> inte
 
 // The same with sigma = I_model / sqrt(modes), iterated: each |chi_hat|^2 is distributed exponentially about its mean,
 // so weights from the data themselves would favour the low points.
+// nonnegative: where the free optimum has a constant below 0, that with the constant held at 0.
 FractalFit fit_intensity_by_modes(std::span<const double> k, std::span<const double> intensity,
-                                  std::span<const double> modes);
+                                  std::span<const double> modes, FitConstant constant = FitConstant::free);
+
+// The same from one start alone, the optimum of a similar curve: for resamples. `identifiable` says only that the
+// optimum lies in the range that the window can tell.
+FractalFit refit_intensity_by_modes(std::span<const double> k, std::span<const double> intensity,
+                                    std::span<const double> modes, FitConstant constant, const FractalFit& start);
 
 // Unweighted fit of Eq. 27 (three parameters, `constant` 0); errors from the scatter about the fit, which are too small
 // where points are correlated.
 FractalFit fit_correlation(std::span<const double> r, std::span<const double> excess);
+FractalFit refit_correlation(std::span<const double> r, std::span<const double> excess, const FractalFit& start);
 
 }  // namespace isostat

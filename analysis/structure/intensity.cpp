@@ -82,13 +82,38 @@ IntensityCurve pooled_intensity(std::span<const IntensityCurve> curves) {
   return curve_of(curves.front().k_edges, sums);
 }
 
-FractalFit fit_curve(const IntensityCurve& c, double k_low, double k_high) {
+namespace {
+
+struct Bins {
   std::vector<double> k, intensity, modes;
+};
+
+Bins bins_in(const IntensityCurve& c, double k_low, double k_high) {
+  Bins in;
   for (std::size_t b = 0; b < c.modes.size(); ++b) {
     if (c.modes[b] == 0 || c.k[b] < k_low || c.k[b] > k_high) continue;
-    k.push_back(c.k[b]), intensity.push_back(c.intensity[b]), modes.push_back(static_cast<double>(c.modes[b]));
+    in.k.push_back(c.k[b]), in.intensity.push_back(c.intensity[b]);
+    in.modes.push_back(static_cast<double>(c.modes[b]));
   }
-  return fit_intensity_by_modes(k, intensity, modes);
+  return in;
+}
+
+}  // namespace
+
+FractalFit fit_curve(const IntensityCurve& c, double k_low, double k_high, FitConstant constant) {
+  const Bins in = bins_in(c, k_low, k_high);
+  return fit_intensity_by_modes(in.k, in.intensity, in.modes, constant);
+}
+
+FractalFit refit_curve(const IntensityCurve& c, double k_low, double k_high, FitConstant constant,
+                       const FractalFit& start) {
+  const Bins in = bins_in(c, k_low, k_high);
+  return refit_intensity_by_modes(in.k, in.intensity, in.modes, constant, start);
+}
+
+PowerFit fit_curve_power(const IntensityCurve& c, double k_low, double k_high) {
+  const Bins in = bins_in(c, k_low, k_high);
+  return fit_power(in.k, in.intensity, in.modes, k_low, k_high);
 }
 
 }  // namespace isostat

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/structure/fractal_fit.hpp"
+#include "analysis/structure/power_fit.hpp"
 #include "geometry/disk_transform.hpp"
 
 namespace isostat {
@@ -31,6 +32,12 @@ IntensityCurve average_intensity(const DiskTransform& transform, std::vector<dou
 IntensityCurve pooled_intensity(std::span<const IntensityCurve> curves);
 
 // Eq. 28 fitted to the bins with modes in [k_low, k_high], sigma = I_model / sqrt(modes).
-FractalFit fit_curve(const IntensityCurve& curve, double k_low, double k_high);
+FractalFit fit_curve(const IntensityCurve& curve, double k_low, double k_high,
+                     FitConstant constant = FitConstant::free);
+FractalFit refit_curve(const IntensityCurve& curve, double k_low, double k_high, FitConstant constant,
+                       const FractalFit& start);
+
+// Eq. 26 fitted to them.
+PowerFit fit_curve_power(const IntensityCurve& curve, double k_low, double k_high);
 
 }  // namespace isostat

@@ -5,6 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "analysis/structure/bootstrap.hpp"
 #include "analysis/structure/fit_json.hpp"
 #include "analysis/structure/intensity.hpp"
 #include "analysis/structure/scattering_section.hpp"
@@ -40,6 +41,32 @@ std::vector<double> numbers(const Json& j) {
   return out;
 }
 
+// A window that all samples have.
+void narrow(std::array<double, 2>& window, const std::array<double, 2>& other) {
+  window = {std::max(window[0], other[0]), std::min(window[1], other[1])};
+}
+
+struct Sample {
+  std::vector<double> c;  // C(r); NaN beyond the end of a small cell
+  double solid_fraction, area;
+};
+
+// Mean of C - Phi^2 of the samples drawn, each by the area of its cell and about its own Phi, as far as all have it.
+Excess mean_excess(const std::vector<double>& r, const std::vector<Sample>& samples,
+                   const std::vector<std::size_t>& drawn) {
+  Excess mean;
+  for (std::size_t n = 0; n < r.size(); ++n) {
+    double sum = 0, area = 0;
+    for (const std::size_t d : drawn) {
+      const Sample& s = samples[d];
+      sum += s.area * (s.c[n] - s.solid_fraction * s.solid_fraction), area += s.area;
+    }
+    if (!std::isfinite(sum)) break;
+    mean.r.push_back(r[n]), mean.value.push_back(sum / area);
+  }
+  return mean;
+}
+
 }  // namespace
 
 bool align_scattering(std::vector<Json>& sections) {
@@ -72,14 +99,44 @@ bool align_dacf(std::vector<Json>& sections) {
 
 Json pooled_scattering(const std::vector<Json>& aligned) {
   std::vector<IntensityCurve> curves;
-  double limit = std::numeric_limits<double>::infinity();
+  ScatteringFits fits = scattering_fits(aligned.front());
   for (const auto& s : aligned) {
     curves.push_back({numbers(aligned.front()["k_edges"]), numbers(s["k"]), numbers(s["I"]), numbers(s["sigma"]),
                       s["modes"].get<std::vector<std::int64_t>>()});
-    limit = std::min(limit, s["fit"]["k_limit"].get<double>());
+    narrow(fits.window, scattering_fits(s).window), narrow(fits.power_window, scattering_fits(s).power_window);
   }
   const auto pooled = pooled_intensity(curves);
-  return scattering_json(pooled, fit_curve(pooled, 0, limit), limit);
+  const FractalFit fit = fit_curve(pooled, fits.window[0], fits.window[1], fits.constant);
+  Json json = scattering_json(pooled, fit, fits);
+  add_bootstrap(json["fit"], fit, curves.size(), [&](const std::vector<std::size_t>& drawn) {
+    std::vector<IntensityCurve> again;
+    for (const std::size_t d : drawn) again.push_back(curves[d]);
+    return refit_curve(pooled_intensity(again), fits.window[0], fits.window[1], fits.constant, fit);
+  });
+  return json;
+}
+
+Json pooled_dacf(const std::vector<Json>& aligned) {
+  ExcessFits fits = excess_fits(aligned.front());
+  std::vector<Sample> samples;
+  for (const Json& s : aligned) {
+    samples.push_back({numbers(s["C"]), s["solid_fraction"].get<double>(), s["cell_area"].get<double>()});
+    narrow(fits.window, excess_fits(s).window);
+  }
+  const std::vector<double> r = numbers(aligned.front()["r"]);
+  std::vector<std::size_t> each(samples.size());
+  for (std::size_t k = 0; k < each.size(); ++k) each[k] = k;
+  const Excess excess = mean_excess(r, samples, each), in = excess_in(excess, fits.window, fits.to_first_zero);
+  const FractalFit fit = fit_correlation(in.r, in.value);
+  Json json;
+  json["r"] = excess.r, json["excess"] = excess.value;
+  json["fit"] = excess_fit_json(fit, fits);
+  if (fits.scan) json["windows"] = excess_windows(excess, fits);
+  add_bootstrap(json["fit"], fit, samples.size(), [&](const std::vector<std::size_t>& drawn) {
+    const Excess again = excess_in(mean_excess(r, samples, drawn), fits.window, fits.to_first_zero);
+    return refit_correlation(again.r, again.value, fit);
+  });
+  return json;
 }
 
 }  // namespace isostat

@@ -11,7 +11,10 @@ namespace isostat {
 bool align_scattering(std::vector<nlohmann::ordered_json>& sections);
 bool align_dacf(std::vector<nlohmann::ordered_json>& sections);
 
-// The curve of all modes of all samples together, with its fit of Eq. 28.
+// The curve of all modes of all samples together, with its fit of Eq. 28; errors by bootstrap over samples.
 nlohmann::ordered_json pooled_scattering(const std::vector<nlohmann::ordered_json>& aligned);
+
+// The mean of C - Phi^2, each sample by the area of its cell, with its fit of Eq. 27; errors by bootstrap.
+nlohmann::ordered_json pooled_dacf(const std::vector<nlohmann::ordered_json>& aligned);
 
 }  // namespace isostat

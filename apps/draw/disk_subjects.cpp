@@ -7,8 +7,11 @@
 #include "analysis/figure/nice_numbers.hpp"
 #include "analysis/network/coordination.hpp"
 #include "analysis/network/force_scale.hpp"
+#include "analysis/network/stressed_clusters.hpp"
 #include "analysis/rigidity/clusters.hpp"
+#include "analysis/stiffness/link_classes.hpp"
 #include "analysis/stiffness/pseudo_inverse.hpp"
+#include "analysis/stiffness/sparse_cholesky.hpp"
 #include "analysis/stiffness/vibration.hpp"
 #include "dem/disks/certificate.hpp"
 #include "dem/input_error.hpp"
@@ -25,16 +28,29 @@ std::size_t grains_of(const AnalysisInput& input) { return static_cast<std::size
 
 RichText length_unit(const ForceReading& reading) { return reading.law_known ? rich("`a`") : RichText{}; }
 
+// The name of the scale of forces, and how wide a link of that force is.
+struct ForceScaleMarks {
+  RichText label;
+  double width_at_scale = kWidthAtF0;  // [a]
+};
+ForceScaleMarks force_scale_marks(const AnalysisInput& input, const ForceReading& reading, double scale) {
+  if (!reading.law_known) return {number_text(scale), kWidthAtF0};
+  const bool by_attraction = input.state.law.attraction >= scale;
+  const bool by_stress = !(heaviest_weight(input.packing(), input.state.scene.gravity) >= scale);
+  return {by_attraction ? rich("`F`_{0}")
+          : by_stress   ? rich("`aP`")
+                        : plain("heaviest weight"),
+          by_attraction ? kWidthAtF0 : kWidthAtAP};
+}
+
 Content forces(const Arguments& arguments, const AnalysisInput& input, const ForceReading& reading, double scale) {
   if (!reading.known) throw InputError(input.path, 0, "--what", "forces", "this file gives no forces; draw grains");
   ForceOptions options;
   options.convention = convention_of(arguments);
   options.scale = scale;
   if (reading.law_known) {
-    const bool by_attraction = input.state.law.attraction >= scale;
-    const bool by_stress = !(heaviest_weight(input.packing(), input.state.scene.gravity) >= scale);
-    options.scale_label = by_attraction ? rich("`F`_{0}") : by_stress ? rich("`aP`") : plain("heaviest weight");
-    options.width_at_scale = by_attraction ? kWidthAtF0 : kWidthAtAP;
+    const ForceScaleMarks marks = force_scale_marks(input, reading, scale);
+    options.scale_label = marks.label, options.width_at_scale = marks.width_at_scale;
   }
   if (!reading.cohesive) {
     const Coordination c = coordination(input.packing(), reading);
@@ -69,6 +85,29 @@ Content clusters(const AnalysisInput& input) {
   ClusterOptions options{rigid.cluster_of_grain, rigid.cluster_of_link, {}};
   for (const RigidCluster& c : rigid.clusters) options.hyperstatic.push_back(c.hyperstatic > 0);
   return clusters_content(std::move(options));
+}
+
+Content stressed(const Arguments& arguments, const AnalysisInput& input, const ForceReading& reading, double scale) {
+  if (!reading.known) throw InputError(input.path, 0, "--what", "stressed", "this file gives no forces");
+  StressedOptions options;
+  options.width = convention_of(arguments).width;
+  if (!arguments.has("--width")) options.width = ForceMeasure::total;
+  const double threshold = arguments.number("--threshold").value_or(0.01 * reading.scale);
+  const auto found = stressed_clusters(input.packing(), options.width, threshold);
+  options.of_grain = found.of_body, options.of_link = found.of_link, options.clusters = found.clusters.size();
+  options.scale = scale;
+  const ForceScaleMarks marks = force_scale_marks(input, reading, scale);
+  options.scale_label = marks.label, options.width_at_scale = marks.width_at_scale;
+  options.below = plain("below ") + number_text(threshold);
+  return stressed_content(std::move(options));
+}
+
+Content loops(const AnalysisInput& input) {
+  try {
+    return loops_content(link_classes(input.network(), input.network_law({}), false));
+  } catch (const FactorisationFailed& error) {
+    throw InputError(input.path, 0, "--what", "loops", error.what());
+  }
 }
 
 // Outer walls run clockwise: their area is negative.
@@ -139,6 +178,8 @@ std::vector<Content> contents_of(const std::string& what, const Arguments& argum
                        : what == "velocity" ? velocity(inputs[k], readings[k], motion)
                        : what == "modes"    ? mode(arguments, inputs[k], readings[k])
                        : what == "clusters" ? clusters(inputs[k])
+                       : what == "stressed" ? stressed(arguments, inputs[k], readings[k], force)
+                       : what == "loops"    ? loops(inputs[k])
                                             : grains_content());
   return contents;
 }

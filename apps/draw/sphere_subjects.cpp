@@ -44,7 +44,7 @@ Series series_of(const Arguments& arguments, const std::vector<AnalysisInput>& i
   for (std::size_t k = 0; k < inputs.size(); ++k)
     if (series.what == "forces" && !series.readings[k].known)
       throw InputError(inputs[k].path, 0, "--what", "forces", "this file gives no forces; draw grains");
-  if (series.what == "pores" || series.what == "modes")
+  if (series.what == "pores" || series.what == "modes" || series.what == "stressed" || series.what == "loops")
     throw InputError(inputs[0].path, 0, "--what", series.what, "is drawn of packings in the plane; this one is in 3D");
   return series;
 }

@@ -109,7 +109,7 @@ Drawing drawing_of_triangles(const Arguments& arguments, const std::vector<Analy
     overlaps = overlaps || !grains_of(input).overlaps.empty();
   }
   const std::string what = what_to_draw(arguments, overlaps);
-  if (what == "pores")
+  if (what == "pores" || what == "stressed" || what == "loops")
     throw InputError(inputs[0].path, 0, "--what", what, "is about disks; this packing is of triangles");
   std::vector<Content> contents = contents_of(what, arguments, inputs);
   Drawing drawing;

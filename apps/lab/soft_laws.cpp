@@ -125,6 +125,28 @@ double curvature(SoftParticleTest test, const Team& team, Json& json) {
   return xy / xx;
 }
 
+// In a packing a soft-particle is pressed on many sides and has less room to give way. The normal law of a particle in
+// a cage of six walls takes the place of that at one wall, and that of two soft-particles grows by the same factor.
+void confine(SoftParticleTest test, const Team& team, SphereLaw& law, Json& json) {
+  const double rs = test.insertion.shell_radius, unit = test.law.grain.modulus * rs * rs;
+  test.alpha = {}, test.delta = kAtWall;
+  const auto mean_force = [&](SoftPartner partner) {
+    test.partner = partner;
+    return mean_of(columns(measure_soft_particles(test, team.seed, team.packings, team.threads), forces_of));
+  };
+  const std::vector<double> wall = mean_force(SoftPartner::wall), cage = mean_force(SoftPartner::cage);
+  double ratio = 0;
+  for (std::size_t k = 0; k < kAtWall.size(); ++k) {
+    const bool counts = std::find(kAtLast.begin(), kAtLast.end(), kAtWall[k]) != kAtLast.end();
+    if (counts) ratio += cage[k] / wall[k] / static_cast<double>(kAtLast.size());
+    json.push_back({{"delta", kAtWall[k]}, {"F", cage[k]}, {"over_wall", cage[k] / wall[k]}});
+  }
+  SoftLaw fit = fit_soft_law(kAtWall, cage);
+  if (fit.c > 0) fit = fit_soft_law_from(0, kAtWall, cage);
+  law.soft_solid.force = fit.a / unit, law.soft_solid.exponent = fit.b, law.soft_solid.offset = fit.c / unit;
+  law.soft_soft.force *= ratio, law.soft_soft.offset *= ratio;
+}
+
 Json law_json(const SoftParticleLaw& law) {
   return {{"force", law.force},
           {"exponent", law.exponent},
@@ -156,6 +178,7 @@ int lab_soft_laws(int argc, char** argv) {
                         {"--packings", "N", "average over N packings (default 14)"},
                         {"--seed", "S", "of the first packing (default 1)"},
                         {"--threads", "N", "packings side by side (default: all cores)"},
+                        {"--confined", "", "normal laws of particles pressed on six sides at once, as in a packing"},
                         {"--exponent", "B", "of the law of sizes (default 3.5)"},
                         {"--ratio", "PI", "largest over smallest radius of a decade (default 10)"},
                         kJsonOption},
@@ -168,6 +191,7 @@ int lab_soft_laws(int argc, char** argv) {
       args.integer("--threads", 1, 1024).value_or(std::max(1u, std::thread::hardware_concurrency())));
   const auto levels = static_cast<int>(args.integer("--levels", 1, 6).value_or(2));
   const double exponent = args.number("--exponent").value_or(3.5), ratio = args.number("--ratio").value_or(10);
+  const bool confined = args.has("--confined");
   if (!(exponent >= 0 && exponent <= 10))
     throw InputError("command line", 0, "--exponent", *args.value("--exponent"), "from 0 to 10");
   if (!(ratio >= 2 && ratio <= 30))
@@ -180,7 +204,7 @@ int lab_soft_laws(int argc, char** argv) {
   Json json;
   json["modulus"] = test.law.grain.modulus, json["density"] = test.density, json["friction"] = test.law.friction;
   json["radius"] = test.insertion.shell_radius, json["largest"] = largest, json["ratio"] = ratio;
-  json["exponent"] = exponent, json["packings"] = team.packings;
+  json["confined"] = confined, json["exponent"] = exponent, json["packings"] = team.packings;
   for (int level = 0; level < levels; ++level) {
     const double begin = cpu_seconds();
     Json of;
@@ -199,6 +223,7 @@ int lab_soft_laws(int argc, char** argv) {
     next.soft_solid = partner_law(test, SoftPartner::wall, kAtWall, team, of["wall"]);
     next.soft_soft = partner_law(test, SoftPartner::soft, kAtSoft, team, of["soft"]);
     next.soft_curvature = std::max(0.0, curvature(test, team, of["balls"]));
+    if (confined) confine(test, team, next, of["cage"]);
     of["soft_solid"] = law_json(next.soft_solid), of["soft_soft"] = law_json(next.soft_soft);
     of["soft_curvature"] = next.soft_curvature;
     of["cpu_seconds"] = cpu_seconds() - begin;

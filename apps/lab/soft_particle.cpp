@@ -84,6 +84,8 @@ SoftParticleTest test_of(const Arguments& args) {
   for (const double a : t.alpha)
     if (!(std::abs(a) <= 45) || a == 0)
       refuse("--alpha", *args.value("--alpha"), "angles within 45 degrees, none of them 0");
+  if (partner == SoftPartner::cage && !t.alpha.empty())
+    refuse("--alpha", *args.value("--alpha"), "nothing turns in a cage; --partner wall or soft");
   if (partner == SoftPartner::none && !t.alpha.empty())
     refuse("--alpha", *args.value("--alpha"), "a solid sphere is not turned; --partner wall or soft");
   InsertionScene& g = t.insertion;
@@ -167,7 +169,7 @@ Json turned_json(const SoftParticleTest& test, const std::vector<SoftMeasurement
 double solid_force(const SoftParticleTest& test, double delta) {
   const double rs = test.insertion.shell_radius;
   const double other = test.partner == SoftPartner::ball ? test.partner_radius : rs;
-  const bool at_wall = test.partner == SoftPartner::wall || test.partner == SoftPartner::none;
+  const bool at_wall = test.partner != SoftPartner::soft && test.partner != SoftPartner::ball;
   const ContactStiffness k = at_wall ? wall_stiffness(test.law, rs) : pair_stiffness(test.law, rs, other);
   return repulsion(test.law, k, -delta * rs);
 }
@@ -256,7 +258,9 @@ int lab_soft_particle(int argc, char** argv) {
   const Arguments args(
       argc, argv,
       {{"--partner", "P",
-        "wall (default), soft: another soft-particle, ball: a solid sphere, none: one solid sphere against the wall"},
+        "wall (default), soft: another soft-particle, ball: a solid sphere, cage: six walls that close in together, "
+        "none: "
+        "one solid sphere against the wall"},
        {"--partner-radius", "R", "[m] of the ball (default RS)"},
        {"--protocol", "P", "paper (default), quasistatic, fire"},
        {"--delta", "LIST", "normal deformations h_n / R_s, ascending, as in 0.1,0.2,0.3"},

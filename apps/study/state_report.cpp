@@ -19,13 +19,22 @@ using Json = nlohmann::ordered_json;
 // All that a report depends on beside its sections.
 Json key_of(const std::string& state_path, const AnalysisOptions& options) {
   const StateDigest& state = state_digest(state_path);
+  const auto optional = [](const auto& value) { return value ? Json(*value) : Json(); };
   return {{"isostat", version()},
           {"hash", state.hash},
           {"scene", scene_to_toml(state.scene)},
           {"law", options.law ? Json(static_cast<int>(*options.law)) : Json()},
           {"cell_free", options.cell_free},
-          {"gap_tolerance", options.gap_tolerance ? Json(*options.gap_tolerance) : Json()},
-          {"k_max", options.k_max}};
+          {"gap_tolerance", optional(options.gap_tolerance)},
+          {"k_max", options.k_max},
+          {"k_window", optional(options.k_window)},
+          {"r_window", optional(options.r_window)},
+          {"pore_window", optional(options.pore_window)},
+          {"pore_size", optional(options.pore_size)},
+          {"threshold", optional(options.threshold)},
+          {"force", static_cast<int>(options.force_measure)},
+          {"fit_constant", name_of(options.fit_constant)},
+          {"window_scan", options.window_scan}};
 }
 
 std::optional<Json> stored(const std::string& path, const Json& key) {

@@ -4,6 +4,8 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <sstream>
@@ -148,6 +150,26 @@ class StudyParser {
     return names;
   }
 
+  // [LOW, HIGH] with 0 <= LOW < HIGH, LOW > 0 where 0 is no end.
+  AnalysisOptions::Window window_of(const toml::node& node, const std::string& key, bool from_zero) {
+    const auto* array = node.as_array();
+    std::vector<double> ends;
+    for (std::size_t k = 0; array && k < array->size(); ++k)
+      if (const auto end = array->get(k)->value<double>()) ends.push_back(*end);
+    if (array && array->size() == 2 && ends.size() == 2 && (from_zero ? ends[0] >= 0 : ends[0] > 0) &&
+        ends[0] < ends[1] && std::isfinite(ends[1]))
+      return std::array{ends[0], ends[1]};
+    fault(line_of(node), key, literal(node),
+          from_zero ? "is [LOW, HIGH] with 0 <= LOW < HIGH" : "is [LOW, HIGH] with 0 < LOW < HIGH");
+    return std::nullopt;
+  }
+  std::optional<double> positive(const toml::node& node, const std::string& key, const char* unit) {
+    const auto number = node.value<double>();
+    if (number && *number > 0 && std::isfinite(*number)) return number;
+    fault(line_of(node), key, literal(node), std::string("a real > 0 ") + unit);
+    return std::nullopt;
+  }
+
   void read_options(const toml::node& node, AnalysisOptions& options) {
     const toml::table* table = node.as_table();
     if (!table) return fault(line_of(node), "analysis", literal(node), "is a table: write [analysis]");
@@ -166,10 +188,34 @@ class StudyParser {
         options.gap_tolerance = number;
         if (!number || !(*number >= 0)) fault(line_of(value), key, literal(value), "a real >= 0 [a]");
       } else if (leaf == "k_max") {
-        options.k_max = number.value_or(0);
-        if (!(options.k_max > 0)) fault(line_of(value), key, literal(value), "a real > 0 [1/a]");
+        options.k_max = positive(value, key, "[1/a]").value_or(0);
+      } else if (leaf == "k_window") {
+        options.k_window = window_of(value, key, true);
+      } else if (leaf == "r_window") {
+        options.r_window = window_of(value, key, true);
+      } else if (leaf == "pore_window") {
+        options.pore_window = window_of(value, key, false);
+      } else if (leaf == "pore_size") {
+        options.pore_size = positive(value, key, "[a]");
+      } else if (leaf == "threshold") {
+        options.threshold = positive(value, key, "[F0]");
+      } else if (leaf == "fit_constant") {
+        const auto constant = fit_constant_named(text.value_or(""));
+        options.fit_constant = constant.value_or(options.fit_constant);
+        if (!constant) fault(line_of(value), key, literal(value), "one of \"free\", \"nonnegative\", \"zero\"");
+      } else if (leaf == "force") {
+        options.force_measure = text == "normal" ? ForceMeasure::normal : ForceMeasure::total;
+        if (text != "normal" && text != "total")
+          fault(line_of(value), key, literal(value), "one of \"total\", \"normal\"");
+      } else if (leaf == "window_scan") {
+        options.window_scan = value.value<bool>().value_or(false);
+        if (!value.is_boolean()) fault(line_of(value), key, literal(value), "true or false");
       } else {
-        unknown(line_of(value), key, {"analysis.law", "analysis.cell", "analysis.gap_tolerance", "analysis.k_max"});
+        std::vector<std::string> known;
+        for (const char* k : {"law", "cell", "gap_tolerance", "k_max", "k_window", "r_window", "pore_window",
+                              "pore_size", "threshold", "force", "fit_constant", "window_scan"})
+          known.push_back(std::string("analysis.") + k);
+        unknown(line_of(value), key, known);
       }
     }
   }

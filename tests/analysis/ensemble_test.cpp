@@ -123,5 +123,36 @@ TEST(ReportText, OneLineANumber) {
   EXPECT_NE(text.find("[1, 2]\n"), std::string::npos);
 }
 
+TEST(Ensemble, AFitThatIsNotIdentifiableIsNoPartOfAMean) {
+  const auto one = [](double d, bool told) {
+    return report("a", {{"fit",
+                         {{"d_F", d},
+                          {"d_F_error", 0.1 * d},
+                          {"correlation", {{1.0}}},
+                          {"k_limit", 6.0},
+                          {"identifiable", told},
+                          {"message", told ? "" : "why"}}}});
+  };
+  const Json merged = merge_reports({one(1, true), one(2, true), one(50, false)})["counts"]["fit"];
+  EXPECT_EQ(merged["d_F"]["mean"], 1.5);
+  EXPECT_EQ(merged["d_F"]["n"], 2);
+  EXPECT_EQ(merged["d_F_error"]["n"], 2);
+  EXPECT_EQ(merged["k_limit"]["mean"], 6.0);
+  EXPECT_NEAR(merged["identifiable"]["mean"].get<double>(), 2.0 / 3, 1e-15);
+  const Json none = merge_reports({one(1, false), one(2, false)})["counts"]["fit"];
+  EXPECT_TRUE(none["d_F"].is_null());
+  EXPECT_EQ(none["identifiable"], false);
+  EXPECT_EQ(none["message"], "why");
+}
+
+TEST(ReportText, AFitWithoutAResultSaysSoAndShowsNoNumbers) {
+  const auto text = [](bool told) {
+    return report_as_text(report("a", {{"fit", {{"d_F", 1.25}, {"identifiable", told}, {"message", "xi runs away"}}}}));
+  };
+  EXPECT_NE(text(true).find("fit.d_F"), std::string::npos);
+  EXPECT_EQ(text(false).find("1.25"), std::string::npos);
+  EXPECT_NE(text(false).find("NOT IDENTIFIABLE: xi runs away"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace isostat

@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "analysis/load_input.hpp"
 #include "analysis/report.hpp"
 #include "analysis/structure/sections.hpp"
 #include "dem/input_error.hpp"
@@ -61,6 +64,53 @@ TEST(pores_section, refuses_3d) {
   AnalysisInput input;
   input.packing_3d.emplace();
   EXPECT_EQ(oracle::refusal(input, "pores"), "is defined for packings in the plane; this one is in 3D");
+}
+
+TEST(pores_section, share_of_small_pores_and_size_law_follow_from_the_list) {
+  const auto d = oracle::read_disks(ISOSTAT_DATA "/geometry/holes_thin_chains.json");
+  const auto input = input_of(d);
+  for (const double size : {0.2, 1.0, 5.0, 100.0}) {
+    AnalysisOptions options;
+    options.pore_size = size;
+    const auto json = pores_section(input, options);
+    double small = 0, all = 0;
+    std::int64_t count = 0;
+    for (const auto& p : json["list"]) {
+      all += p["area"].get<double>();
+      if (p["R"].get<double>() < size) small += p["area"].get<double>(), ++count;
+    }
+    EXPECT_EQ(json["small"]["size"], size);
+    EXPECT_EQ(json["small"]["count"], count);
+    EXPECT_NEAR(json["small"]["share"].get<double>(), small / all, 1e-12);
+    const double cell = d.cell.measure(), void_area = cell - json["covered_area"].get<double>();
+    EXPECT_NEAR(json["small"]["share_of_void"].get<double>(), small / void_area, 1e-9);
+    EXPECT_NEAR(all, void_area, 1e-6 * cell);  // none percolates
+  }
+  const auto json = pores_section(input, {});
+  EXPECT_EQ(json["small"]["size"], 2 * *std::max_element(d.radius.begin(), d.radius.end()));
+  EXPECT_FALSE(json["size_law"]["identifiable"].get<bool>());  // 15 pores
+  EXPECT_EQ(json["size_law"]["to"], nullptr);
+}
+
+TEST(pores_section, exponent_of_many_pores_in_a_window) {
+  AnalysisOptions options;
+  options.pore_window = {{0.01, 0.3}};
+  const auto json = pores_section(load_input(ISOSTAT_DATA "/clusters/dense_1400.net", {}), options);
+  std::vector<double> radii;
+  double logs = 0;
+  for (const auto& p : json["list"])
+    if (p["R"].is_number() && p["R"].get<double>() >= 0.01 && p["R"].get<double>() < 0.3)
+      radii.push_back(p["R"].get<double>()), logs += std::log(radii.back());
+  ASSERT_GE(radii.size(), 100u);
+  EXPECT_EQ(json["size_law"]["count"], radii.size());
+  // By a search: the exponent that makes ln L = -q sum ln R - n ln int R^-q largest.
+  double best = -1e300, exponent = 0;
+  for (double q = -3; q < 5; q += 1e-3) {
+    const double e = 1 - q, norm = std::abs(e) < 1e-9 ? std::log(30.0) : (std::pow(0.3, e) - std::pow(0.01, e)) / e;
+    const double l = -q * logs - static_cast<double>(radii.size()) * std::log(norm);
+    if (l > best) best = l, exponent = q;
+  }
+  EXPECT_NEAR(json["size_law"]["exponent"].get<double>(), exponent, 1e-3);
 }
 
 }  // namespace

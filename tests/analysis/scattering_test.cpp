@@ -184,5 +184,97 @@ TEST(scattering, samples_of_different_size_line_up_and_pool) {
   EXPECT_FALSE(merge_reports(reports)["scattering"].contains("pooled"));
 }
 
+TEST(scattering, windows_and_constant_are_options) {
+  const auto input = input_of(oracle::rsa_disks(600, {40, 40}, 0.25, 0.5, 4));
+  AnalysisOptions options;
+  options.k_window = {{0.5, 4.0}};
+  options.fit_constant = FitConstant::zero;
+  options.window_scan = true;
+  const auto json = scattering_section(input, options);
+  EXPECT_EQ(json["fit"]["constant"], 0.0);
+  EXPECT_EQ(json["fit"]["constant_is"], "zero");
+  EXPECT_EQ(json["fit"]["k_from"], 0.5);
+  EXPECT_EQ(json["fit"]["k_limit"], 4.0);
+  for (const char* fit : {"fit", "power"}) {
+    EXPECT_GE(json[fit]["window"][0].get<double>(), 0.5) << fit;
+    EXPECT_LE(json[fit]["window"][1].get<double>(), 4.0) << fit;
+  }
+  EXPECT_GE(json["windows"].size(), 5u);
+  for (const auto& w : json["windows"]) {
+    AnalysisOptions one = options;
+    one.window_scan = false;
+    one.k_window = {{w["from"].get<double>(), w["to"].get<double>()}};
+    const auto alone = scattering_section(input, one);
+    EXPECT_FALSE(alone.contains("windows"));
+    EXPECT_EQ(alone["fit"]["d_F"], w["d_F"]);
+    EXPECT_EQ(alone["fit"]["identifiable"], w["identifiable"]);
+    EXPECT_EQ(alone["power"]["d_F"], w["power_d_F"]);
+  }
+  const auto plain = scattering_section(input, {});
+  EXPECT_EQ(plain["fit"]["constant_is"], "free");
+  EXPECT_EQ(plain["power"]["asked_window"][0].get<double>() * 10, plain["power"]["asked_window"][1].get<double>());
+  options.k_window = {{0.5, 1000.0}};
+  EXPECT_THROW(scattering_section(input, options), InputError);
+}
+
+TEST(scattering, an_ensemble_is_fitted_alike_with_errors_over_samples) {
+  std::vector<nlohmann::ordered_json> reports;
+  AnalysisOptions options;
+  options.k_max = 12, options.k_window = {{0.3, 8.0}}, options.fit_constant = FitConstant::nonnegative;
+  options.r_window = {{1.0, 6.0}};
+  for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
+    auto d = oracle::rsa_disks(500, {30, 30}, 0.25, 0.5, seed);
+    d.radius[0] = 0.5;
+    reports.push_back(analyze(input_of(d), options, {"scattering", "dacf"}));
+  }
+  const auto merged = merge_reports(reports);
+  const auto& pooled = merged["scattering"]["pooled"];
+  EXPECT_EQ(pooled["fit"]["constant_is"], "nonnegative");
+  EXPECT_GE(pooled["fit"]["constant"].get<double>(), 0);
+  EXPECT_EQ(pooled["fit"]["k_from"], 0.3);
+  EXPECT_EQ(pooled["power"]["asked_window"], nlohmann::ordered_json({0.3, 8.0}));
+  EXPECT_EQ(pooled["fit"]["bootstrap"]["samples"], 4);
+  // C(r): the mean over samples of equal cells, about their own Phi.
+  const auto& excess = merged["dacf"]["pooled"]["excess"];
+  for (const std::size_t n : {0u, 20u, 40u}) {
+    double mean = 0;
+    for (const auto& r : reports) {
+      const double phi = r["dacf"]["solid_fraction"];
+      mean += (r["dacf"]["C"][n].get<double>() - phi * phi) / 4;
+    }
+    EXPECT_NEAR(excess[n].get<double>(), mean, 1e-14);
+  }
+  EXPECT_EQ(merged["dacf"]["pooled"]["fit"]["r_from"], 1.0);
+  EXPECT_EQ(merged["dacf"]["pooled"]["fit"]["to_first_zero"], false);
+  EXPECT_EQ(merged["dacf"]["pooled"]["fit"]["bootstrap"]["samples"], 4);
+  // The same for two inputs, which are too few to be drawn from.
+  EXPECT_TRUE(merge_reports({reports[0], reports[1]})["scattering"]["pooled"]["fit"]["bootstrap"].is_null());
+}
+
+TEST(dacf, windows_are_an_option) {
+  const auto input = input_of(oracle::rsa_disks(600, {40, 40}, 0.25, 0.5, 4));
+  AnalysisOptions options;
+  options.r_window = {{2.0, 7.0}};
+  options.window_scan = true;
+  const auto json = dacf_section(input, options);
+  EXPECT_GE(json["fit"]["window"][0].get<double>(), 2);
+  EXPECT_LE(json["fit"]["window"][1].get<double>(), 7);
+  EXPECT_GT(json["fit"]["window"][1].get<double>(), 6.8);
+  EXPECT_EQ(json["mass_radius"]["window"], nlohmann::ordered_json({2.0, 7.0}));
+  double low = 0, high = 0, n = 0, xx = 0, xy = 0;  // the slope of ln M, by hand
+  for (std::size_t k = 0; k < json["r"].size(); ++k)
+    if (const double r = json["r"][k]; r >= 2 && r <= 7)
+      low += std::log(r), high += std::log(json["mass_radius"]["M"][k].get<double>()), n += 1;
+  for (std::size_t k = 0; k < json["r"].size(); ++k)
+    if (const double r = json["r"][k]; r >= 2 && r <= 7) {
+      const double x = std::log(r) - low / n;
+      xx += x * x, xy += x * (std::log(json["mass_radius"]["M"][k].get<double>()) - high / n);
+    }
+  EXPECT_NEAR(json["mass_radius"]["dimension"].get<double>(), xy / xx, 1e-12);
+  EXPECT_EQ(json["windows"].size(), 4u);  // a quarter of 7 is below 2, four times 2 above 7
+  options.r_window = {{1.0, 20.5}};
+  EXPECT_THROW(dacf_section(input, options), InputError);
+}
+
 }  // namespace
 }  // namespace isostat

@@ -47,6 +47,16 @@ TEST_F(Figures, DrawsForces) {
   const std::string thresholded = content(in_folder("t.svg"));
   EXPECT_EQ(count(thresholded, ">unstressed<"), 1u);
   EXPECT_NE(thresholded.find("= "), std::string::npos);
+  ASSERT_EQ(run("draw " + input + " --what stressed --threshold .01 -o " + in_folder("s.svg")).code, 0);
+  const std::string stressed = content(in_folder("s.svg"));
+  EXPECT_EQ(count(stressed, ">stressed cluster<"), 1u);
+  EXPECT_EQ(count(stressed, ">below 0.01<"), 1u);
+  ASSERT_EQ(run("draw " + input + " --what stressed --threshold .6 --width normal -o " + in_folder("s.svg")).code, 0);
+  EXPECT_EQ(count(content(in_folder("s.svg")), ">tensile<"), 0u);
+  ASSERT_EQ(run("draw " + input + " --what loops -o " + in_folder("l.svg")).code, 0);
+  EXPECT_EQ(count(content(in_folder("l.svg")), ">on no loop<"), 1u);
+  ASSERT_EQ(run("draw " + cluster("double_triangle.net") + " --what loops -o " + in_folder("l.svg")).code, 0);
+  EXPECT_EQ(count(content(in_folder("l.svg")), ">self-stressed by forces<"), 1u);
 }
 
 TEST_F(Figures, DrawsClustersPoresAndModes) {
@@ -72,7 +82,8 @@ TEST_F(Figures, BadInputLeavesNothing) {
   for (const std::string& arguments :
        {"draw " + net, "draw " + net + " -o " + in_folder("x.gif"), "draw -o " + out,
         "draw " + net + " " + net + " -o " + out, "draw " + in_folder("none.net") + " -o " + out,
-        "draw " + net + " --what forces -o " + out, "draw " + net + " --what tea -o " + out,
+        "draw " + net + " --what forces -o " + out, "draw " + net + " --what stressed -o " + out,
+        "draw " + net + " --what loops --threshold .1 -o " + out, "draw " + net + " --what tea -o " + out,
         "draw " + net + " --threshold -1 -o " + out, "draw " + net + " --what grains --threshold .1 -o " + out,
         "draw " + net + " -o " + in_folder("no/x.svg"), "plot " + net + " -o " + out,
         "plot " + in_folder("none.json") + " -o " + out, "plot -o " + out,

@@ -37,6 +37,8 @@ TEST_F(Pictures, OfAPacking) {
   const std::string draw = "draw " + packing() + " --what ";
   for (const std::string what : {"grains", "forces", "velocity"}) expect_approved(draw + what, what + ".svg");
   expect_approved(draw + "forces --threshold 0.045 --width total", "threshold.svg");
+  expect_approved(draw + "stressed --threshold 0.045", "stressed.svg");
+  expect_approved(draw + "loops", "loops.svg");
   expect_approved("draw " + golden("cluster.net") + " --what modes --mode 2", "modes.svg");
   expect_approved("draw " + golden("holes.net") + " --what pores", "pores.svg");
   expect_approved("draw " ISOSTAT_DATA "/clusters/double_triangle.net --what clusters", "clusters.svg");
@@ -48,6 +50,14 @@ TEST_F(Pictures, OfResults) {
       run("analyze " ISOSTAT_DATA "/clusters/periodic_free_cluster.net --only scattering --json " + in_folder("s.json"))
           .code,
       0);
+  ASSERT_EQ(
+      run("analyze " + packing() + " --only stressed,loops,two_contacts --threshold .045 --json " + in_folder("n.json"))
+          .code,
+      0);
+  ASSERT_EQ(run("analyze " ISOSTAT_DATA "/clusters/dense_1400.net --only dacf --json " + in_folder("c.json")).code, 0);
+  for (const std::string what : {"stressed", "loops", "two-contacts"})
+    expect_approved("plot " + in_folder("n.json") + " --what " + what, "plot-" + what + ".svg");
+  expect_approved("plot " + in_folder("c.json") + " --what correlation", "plot-correlation.svg");
   ASSERT_EQ(run("analyze " + golden("holes.net") + " --only pores --json " + in_folder("p.json")).code, 0);
   for (const std::string what : {"force-histogram", "angle", "NT", "coordination"})
     expect_approved("plot " + in_folder("r.json") + " --what " + what, "plot-" + what + ".svg");

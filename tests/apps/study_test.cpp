@@ -323,6 +323,29 @@ TEST_F(Study, AFailedAnalysisIsListed) {
   EXPECT_THAT(table("out/runs.csv").find("status")->text, ElementsAre("ok"));
 }
 
+TEST_F(Study, OptionsOfTheAnalysisActAndMakeReportsAnew) {
+  const std::string head = "scene = \"scene.toml\"\nseeds = 1\nanalyze = [\"pores\", \"scattering\"]\n[analysis]\n";
+  const auto small = [&](const std::string& options) {
+    write("study.toml", head + options);
+    EXPECT_EQ(run(study("out")).code, 0) << options;
+    return table("out/study.csv");
+  };
+  const DataTable plain = small("k_max = 12\n"),
+                  other = small("k_max = 12\npore_size = .25\nk_window = [0.5, 9]\nfit_constant = \"zero\"\n");
+  EXPECT_EQ(plain.find("pores.small.size")->value.at(0), 1);
+  EXPECT_EQ(other.find("pores.small.size")->value.at(0), 0.25);
+  EXPECT_EQ(other.find("scattering.fit.k_limit")->value.at(0), 9);
+  EXPECT_EQ(other.find("scattering.fit.constant")->value.at(0), 0);
+  for (const char* bad :
+       {"k_window = [2, 1]\n", "k_window = [1]\n", "pore_window = [0, 1]\n", "pore_size = -1\n", "threshold = 0\n",
+        "force = \"shear\"\n", "fit_constant = \"none\"\n", "window_scan = 1\n", "k_windows = [1, 2]\n"}) {
+    write("study.toml", head + bad);
+    const Outcome o = run(study("out"));
+    EXPECT_EQ(o.code, 2) << bad;
+    EXPECT_THAT(o.err, HasSubstr("analysis." + std::string(bad).substr(0, std::string(bad).find(' ')))) << bad;
+  }
+}
+
 TEST_F(Study, AnEnsembleTellsItsStage) {
   write("study.toml", "scene = \"scene.toml\"\nseeds = 2\n[[row]]\nname = \"a\"\nstage = 1\n[[row]]\nname = \"b\"\n");
   ASSERT_EQ(run(study("out")).code, 0);

@@ -5,8 +5,8 @@
 
 Measures the laws of three levels of soft-particles (isostat lab soft-laws), compresses packings of grains and
 soft-particles in three resolutions (isostat lab soft-packing), keeps the JSON in OUT and skips what is there; then
-writes soft_laws.csv, soft_packing.csv and soft_decades.csv. About 40 minutes on two cores, nearly all of it the
-resolved packings.
+writes soft_laws.csv, soft_cage.csv, soft_packing.csv and soft_decades.csv. About 25 minutes on two cores, nearly all of
+it the resolved packings.
 """
 import argparse
 import csv
@@ -34,11 +34,11 @@ def write(path, header, rows):
         table.writerows([[f"{x:.4g}" if isinstance(x, float) else x for x in row] for row in rows])
 
 
-def laws_rows(laws):
+def laws_rows(laws, name=""):
     for level in laws["levels"]:
         for partner in ("soft_solid", "soft_soft"):
             law = level[partner]
-            yield [level["level"], level["bodies"], level["soft_particles"], level["solid_fraction"], partner,
+            yield [level["level"], level["bodies"], level["soft_particles"], level["solid_fraction"], name + partner,
                    law["force"], law["exponent"], law["offset"], law["tangential"], law["tangential_exponent"],
                    law["friction"], level["soft_curvature"], level["cpu_seconds"] / laws["packings"]]
 
@@ -76,13 +76,24 @@ def main():
                   ["soft-packing", "--laws", path, "--resolutions", "model,shells,free", *PACKING, *threads])
     plane = run(args.program, args.out, "packing-plane",
                 ["soft-packing", "--laws", path, "--resolutions", "model", "--plane-law", *PACKING, *threads])
+    confined = run(args.program, args.out, "laws-confined",
+                   ["soft-laws", "--confined", "--levels", "1", "--packings", "14", *threads])
+    caged = run(args.program, args.out, "packing-confined",
+                ["soft-packing", "--laws", os.path.join(args.out, "laws-confined.json"), "--resolutions", "model", *PACKING,
+                 *threads])
+    write(os.path.join(args.results, "soft_cage.csv"), ["delta", "F", "over_wall"],
+          [[point[key] for key in ("delta", "F", "over_wall")] for point in confined["levels"][0]["cage"]])
     write(os.path.join(args.results, "soft_laws.csv"),
           ["level", "bodies", "soft_particles", "solid_fraction", "partner", "force", "exponent", "offset", "tangential",
-           "tangential_exponent", "friction", "curvature", "cpu_seconds_per_packing"], laws_rows(laws))
+           "tangential_exponent", "friction", "curvature", "cpu_seconds_per_packing"], [*laws_rows(laws), *laws_rows(confined, "confined ")])
     quantities = [f"{q}_{k}" for q in ("pressure", "load") for k in ("first", "second", "scatter", "deviation", "error")]
     rows = [row for pair in ("model_against_shells", "model_against_free", "shells_against_free")
             for row in packing_rows("measured", packing, pair)]
-    rows += [["plane law", "model", point["strain"], point["pressure"]] for point in plane["model"]["curve"]]
+    for name, other in (("plane law", plane), ("confined", caged)):
+        for point, measured in zip(other["model"]["curve"], packing["model_against_shells"]):
+            shells = measured["pressure"]
+            rows.append([name, "model_against_shells", point["strain"], point["pressure"], shells["resolved"],
+                         shells["scatter"], (point["pressure"] - shells["resolved"]) / shells["scatter"]])
     write(os.path.join(args.results, "soft_packing.csv"), ["law", "pair", "strain", *quantities, "correlation"], rows)
     write(os.path.join(args.results, "soft_decades.csv"),
           ["decades", "grains", "model_bodies", "fewer", "longer_step", "cheaper", "laws_cpu_seconds"],

@@ -36,8 +36,7 @@ class Experiment {
       approach((next - delta) * radius_);
       relax();
       delta = next;
-      const Vec3 force = force_on_partner();
-      result_.normal.push_back({delta, dot(force, kSoftApproach), fire_residual(*solver_), largest_overlap()});
+      result_.normal.push_back({delta, normal_force(), fire_residual(*solver_), largest_overlap()});
       if (test_.alpha.empty()) continue;
       const State<Spheres> pressed = snapshot();
       rotated(delta, 0);
@@ -74,6 +73,8 @@ class Experiment {
     if (test_.partner == SoftPartner::soft)
       add_soft_particle(p, insert_grains<3>(test_.insertion, seed + kSecondStream), (2 * radius_) * kSoftApproach,
                         kSecondSoft);
+    else if (test_.partner == SoftPartner::cage)
+      for (int face = 0; face < kFaces; ++face) p.walls.push_back(cage_wall(face));
     else
       p.walls.push_back(partner_wall());
     set_sphere_inertia(p, {test_.density, test_.density, test_.soft_density});
@@ -94,14 +95,32 @@ class Experiment {
     return wall;
   }
 
+  static constexpr int kFaces = 6;
+  SphereWall cage_wall(int face) const {
+    SphereWall wall;
+    wall.normal[face / 2] = face % 2 == 0 ? 1 : -1;
+    wall.point = -radius_ * wall.normal;
+    return wall;
+  }
+
   // The first particle, shell and grains, by a distance, at the speed of the protocol.
   void approach(double distance) {
     const double dt = state_.time_step;
     const auto steps = static_cast<std::int64_t>(std::ceil(distance / (test_.relaxation.speed * dt)));
     const Vec3 velocity = (distance / (static_cast<double>(steps) * dt)) * kSoftApproach;
+    if (test_.partner == SoftPartner::cage) return close_cage(norm(velocity), steps);
     solver_->engine().boost(kFirstSoft, velocity);
     solver_->run(steps);
     solver_->engine().boost(kFirstSoft, -1.0 * velocity);
+  }
+
+  void close_cage(double speed, std::int64_t steps) {
+    SphereEngine& engine = solver_->engine();
+    const std::size_t first = engine.walls().size() - kFaces;
+    for (std::size_t k = first; k < engine.walls().size(); ++k)
+      engine.set_wall_velocity(k, speed * engine.walls()[k].normal);
+    solver_->run(steps);
+    for (std::size_t k = first; k < engine.walls().size(); ++k) engine.set_wall_velocity(k, {});
   }
 
   // The first particle rigidly about its centre, little by little.
@@ -132,6 +151,15 @@ class Experiment {
   void rotated(double delta, double alpha) {
     const Vec3 force = force_on_partner();
     result_.tangential.push_back({delta, alpha, dot(force, kSoftApproach), dot(force, kSlip), dot(force, kAxis)});
+  }
+
+  double normal_force() const {
+    if (test_.partner != SoftPartner::cage) return dot(force_on_partner(), kSoftApproach);
+    const SphereEngine& e = solver_->engine();
+    double sum = 0;
+    for (std::size_t k = e.walls().size() - kFaces; k < e.walls().size(); ++k)
+      sum -= dot(e.force_on_wall(k), e.walls()[k].normal);
+    return sum / kFaces;
   }
 
   Vec3 force_on_partner() const {

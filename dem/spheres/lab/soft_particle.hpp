@@ -11,8 +11,11 @@
 
 namespace isostat {
 
-enum class SoftPartner { wall, soft, none, ball };  // none: one solid sphere of the shell's radius against the wall
-inline constexpr std::array<std::string_view, 4> kSoftPartnerNames{"wall", "soft", "none", "ball"};
+//   none   one solid sphere of the shell's radius against the wall
+//   ball   a solid sphere that nothing moves, in place of the wall
+//   cage   six walls, the faces of a cube, that close in together: as it is pressed in a packing
+enum class SoftPartner { wall, soft, none, ball, cage };
+inline constexpr std::array<std::string_view, 5> kSoftPartnerNames{"wall", "soft", "none", "ball", "cage"};
 
 // How a deformation is relaxed before a force is taken:
 //   paper        the approach at .05 m/s, six waits of .3 s after each of which all velocities are set to zero, one
@@ -50,7 +53,7 @@ SoftParticleTest soft_particle_defaults(SoftPartner partner, SoftProtocol protoc
 
 struct NormalPoint {
   double delta = 0;            // [R_s]
-  double force = 0;            // F_n on the partner
+  double force = 0;            // F_n on the partner; of a cage on each of its walls in the mean
   double residual = 0;         // at the measurement
   double largest_overlap = 0;  // [smaller radius] of any contact: Hertz's law wants it small
 };

@@ -132,6 +132,132 @@ TEST(ScatteringPlot, EmptyBinsAndAMissingFitAreLeftOut) {
   EXPECT_TRUE(std::isnan(plot.charts[0].curves[0].y[1]));
 }
 
+std::string notes_of(const Chart& chart) {
+  std::string text;
+  for (const RichText& note : chart.notes) {
+    for (const auto& piece : note) text += piece.text;
+    text += '\n';
+  }
+  return text;
+}
+
+TEST(ScatteringPlot, AFitThatIsNotIdentifiableIsSaidAndNotDrawn) {
+  Json result = {{"scattering",
+                  {{"k", {1.0, 2.0, 4.0}},
+                   {"I", {3.0, 2.0, 1.0}},
+                   {"sigma", {0.1, 0.1, 0.1}},
+                   {"fit",
+                    {{"d_F", 1.5},
+                     {"xi", 3.0},
+                     {"amplitude", 1.0},
+                     {"constant", 0.0},
+                     {"identifiable", false},
+                     {"message", "xi runs out of what the window can tell"}}},
+                   {"power",
+                    {{"d_F", 1.25},
+                     {"d_F_error", 0.05},
+                     {"amplitude", 3.0},
+                     {"window", {1.0, 4.0}},
+                     {"identifiable", true},
+                     {"message", ""}}}}}};
+  Plot plot = json_plot("scattering").make(result, "r.json");
+  ASSERT_EQ(plot.charts[0].curves.size(), 2u);  // points, Eq. 26
+  EXPECT_NEAR(plot.charts[0].curves[1].y.back(), 3 * std::pow(4, -1.25), 1e-12);
+  EXPECT_EQ(notes_of(plot.charts[0]),
+            "Eq. 28 not identifiable: xi runs out of what the window can tell\nEq. 26: dF = 1.25 \u00b1 0.05\n");
+  result["scattering"]["power"]["identifiable"] = false;
+  EXPECT_EQ(json_plot("scattering").make(result, "r.json").charts[0].curves.size(), 1u);
+}
+
+TEST(ScatteringPlot, ErrorsOverSamplesGoBeforeThoseOfTheModes) {
+  const Json fit = {{"d_F", 1.5},
+                    {"d_F_error", 0.03},
+                    {"xi", 8.0},
+                    {"xi_error", 0.4},
+                    {"amplitude", 2.0},
+                    {"constant", 0.0},
+                    {"identifiable", true},
+                    {"bootstrap", {{"d_F_error", 0.11}, {"xi_error", 1.2}}}};
+  const Json result = {{"scattering", {{"k", {1.0, 2.0}}, {"I", {5.0, 3.0}}, {"sigma", {1.0, 1.0}}, {"fit", fit}}}};
+  EXPECT_EQ(notes_of(json_plot("scattering").make(result, "r.json").charts[0]),
+            "dF = 1.50 \u00b1 0.11\n\u03be = 8.0 \u00b1 1.2\n");
+}
+
+TEST(CorrelationPlot, DrawsTheExcessAndItsFitInTheWindow) {
+  Json result = {{"units", {{"length", "a"}}},
+                 {"dacf",
+                  {{"r", {0.0, 1.0, 2.0, 3.0}},
+                   {"C", {0.5, 0.45, 0.35, 0.24}},
+                   {"solid_fraction", 0.5},
+                   {"fit",
+                    {{"d_F", 1.5},
+                     {"d_F_error", 0.1},
+                     {"xi", 2.0},
+                     {"xi_error", 0.3},
+                     {"amplitude", 0.2},
+                     {"window", {1.0, 2.0}},
+                     {"identifiable", true}}},
+                   {"mass_radius", {{"local_dimension", {2.0, 1.9, 1.8, 1.7}}}}}}};
+  Plot plot = json_plot("correlation").make(result, "r.json");
+  ASSERT_EQ(plot.charts.size(), 2u);
+  ASSERT_EQ(plot.charts[0].curves.size(), 2u);
+  EXPECT_NEAR(plot.charts[0].curves[0].y[1], 0.2, 1e-15);
+  EXPECT_EQ(plot.charts[0].curves[1].x.front(), 1);
+  EXPECT_NEAR(plot.charts[0].curves[1].x.back(), 2, 1e-12);
+  EXPECT_NEAR(plot.charts[0].curves[1].y.back(), 0.2 * std::pow(2, -0.5) * std::exp(-1), 1e-12);
+  EXPECT_EQ(plot.charts[1].curves[0].y[3], 1.7);
+  result["dacf"]["fit"]["identifiable"] = false;
+  result["dacf"]["fit"]["message"] = "why";
+  plot = json_plot("correlation").make(result, "r.json");
+  EXPECT_EQ(plot.charts[0].curves.size(), 1u);
+  EXPECT_EQ(notes_of(plot.charts[0]), "Eq. 27 not identifiable: why\n");
+  result["dacf"]["pooled"] = {{"r", {0.0, 1.0}}, {"excess", {0.25, 0.15}}, {"fit", Json::object()}};
+  EXPECT_EQ(json_plot("correlation").make(result, "r.json").charts[0].curves[0].y, (std::vector{0.25, 0.15}));
+}
+
+// A size law n^-tau, as the number above: at the lower end all that are in the window.
+TEST(SizePlots, TheLawIsDrawnAsANumberAbove) {
+  Json law = {{"from", 1.0},           {"to", nullptr},        {"exponent", 2.0},
+              {"exponent_error", 0.1}, {"identifiable", true}, {"message", ""}};
+  Json list = Json::array();
+  for (const double r : {0.5, 1.0, 2.0, 3.0, 8.0}) list.push_back({{"R", r}});
+  Json result = {{"pores", {{"list", list}, {"size_law", law}}}};
+  Chart chart = json_plot("pores").make(result, "r.json").charts[0];
+  ASSERT_EQ(chart.curves.size(), 2u);
+  EXPECT_EQ(chart.curves[0].y.front(), 5);
+  EXPECT_NEAR(chart.curves[1].y.front(), 4, 1e-12);  // those from 1 on
+  EXPECT_NEAR(chart.curves[1].y.back(), 4.0 / 8, 1e-12);
+  law["identifiable"] = false, law["message"] = "no power law";
+  result["pores"]["size_law"] = law;
+  chart = json_plot("pores").make(result, "r.json").charts[0];
+  EXPECT_EQ(chart.curves.size(), 1u);
+  EXPECT_EQ(notes_of(chart), "size law not identifiable: no power law\n");
+
+  law["identifiable"] = true, law["to"] = 100.0;
+  result = {
+      {"stressed",
+       {{"threshold", 0.01},
+        {"list", {{{"grains", 4}, {"spans", ""}}, {{"grains", 900}, {"spans", "x"}}, {{"grains", 7}, {"spans", ""}}}},
+        {"size_law", law},
+        {"above", {0.01, 0.1}},
+        {"above_largest", {900, 7}},
+        {"above_mean_size_weighted", {700.0, 5.5}}}}};
+  const Plot plot = json_plot("stressed").make(result, "r.json");
+  ASSERT_EQ(plot.charts.size(), 2u);
+  EXPECT_EQ(plot.charts[0].curves[0].x, (std::vector{4.0, 4.0, 7.0, 7.0}));  // the spanning one has no size
+  EXPECT_EQ(plot.charts[1].curves[0].y, (std::vector{900.0, 7.0}));
+}
+
+TEST(LogHistogramPlots, ShowWhatThereIs) {
+  const Json h = {{"edges", {-2.0, -1.0, 0.0}}, {"density", {0.25, 0.75}}};
+  const Json loops = {{"loops", {{"scale", 0.005}, {"histograms", {{"log10_F_loops", h}, {"log10_F_trees", h}}}}}};
+  EXPECT_EQ(json_plot("loops").make(loops, "r.json").charts[0].curves.size(), 2u);
+  const Json two = {{"two_contacts", {{"histograms", {{"log10_deviation_touching", h}}}}}};
+  EXPECT_EQ(json_plot("two-contacts").make(two, "r.json").charts[0].curves.size(), 1u);
+  for (const char* name : {"loops", "two-contacts", "stressed", "correlation"})
+    EXPECT_NE(message_of([&] { json_plot(name).make(Json::object(), "r.json"); }), "(no error)") << name;
+}
+
 TEST(CoordinationPlot, InPercent) {
   const Json result = {{"counts", {{"z", 3.05}, {"x", {0.0, 0.1, 0.9}}}}};
   const Plot plot = json_plot("coordination").make(result, "r.json");

@@ -50,6 +50,19 @@ TEST(SoftParticle, IsAPureFunctionOfItsSeed) {
   }
 }
 
+// Pressed on six sides at once it is stiffer than on one: there is less room to give way to. And its law begins
+// earlier.
+TEST(SoftParticle, IsStifferInACage) {
+  double wall = 0, cage = 0;
+  for (std::uint64_t seed = 1; seed < 5; ++seed) {
+    SoftParticleTest t = small(SoftPartner::wall);
+    wall += measure_soft_particle(t, seed).normal.back().force;
+    t.partner = SoftPartner::cage;
+    cage += measure_soft_particle(t, seed).normal.back().force;
+  }
+  EXPECT_GT(cage, 1.2 * wall);
+}
+
 // Dimensions: with every length four times as large forces are sixteen times as large at the same Delta. Times grow by
 // four, too, so that speeds stay; all factors are powers of two but for those in roots of the grains' radii.
 TEST(SoftParticle, ForcesScaleWithTheSquareOfTheShell) {
