@@ -1,6 +1,7 @@
 // What `isostat analyze` works on: a packing, the law it may bring, and the options of the command line.
 #pragma once
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -40,6 +41,7 @@ struct AnalysisOptions {
   std::optional<double> pore_size;                   // --pore-size [length]: what a small pore is; none: a
   std::optional<double> threshold;                   // --threshold [force]: what a stressed link bears; none: F1/100
   ForceMeasure force_measure = ForceMeasure::total;  // --force: of what the threshold is
+  std::function<void(std::string_view)> begins{};    // hears the name of each section that is about to be computed
 };
 
 struct AnalysisInput {

@@ -87,7 +87,8 @@ const std::vector<Section>& sections() {
        .takes = {.cell_for = "C(r) averages over it", .grains = true},
        .compute = dacf_section,
        .align = align_dacf,
-       .pooled = pooled_dacf},
+       .pooled = pooled_dacf,
+       .only_when_named = true},
       {.name = "rdf",
        .takes = {.plane = false, .space = true, .cell_for = "g(r) compares with its density", .grains = true},
        .compute = rdf_section},
@@ -122,9 +123,13 @@ void set_undefined_to_null(nlohmann::ordered_json& value) {
 
 // Lengths, masses and forces of the report are in these units; `si` appears when the scene maps the run to SI.
 nlohmann::ordered_json units_of(const AnalysisInput& input) {
-  if (input.triangles) return {{"system", "cgs"}, {"length", "cm"}, {"mass", "g"}, {"force", "dyn"}, {"time", "s"}};
+  if (input.triangles)
+    return {{"system", "cgs"}, {"length", "cm"},       {"mass", "g"},
+            {"force", "dyn"},  {"pressure", "dyn/cm"}, {"time", "s"}};
   if (!input.has_law()) return {{"system", "of the input file"}};
-  if (input.packing_3d) return {{"system", "reduced"}, {"length", "a"}, {"mass", "m"}, {"force", "F0"}, {"time", "T0"}};
+  if (input.packing_3d)
+    return {{"system", "reduced"}, {"length", "a"},        {"mass", "m"},
+            {"force", "F0"},       {"pressure", "F0/a^2"}, {"time", "T0"}};
   const bool cohesive = input.state.law.attraction > 0, pressed = input.has_cell() || !(input.state.scene.gravity > 0);
   nlohmann::ordered_json units{{"system", "reduced"},
                                {"length", "a"},
@@ -132,6 +137,9 @@ nlohmann::ordered_json units_of(const AnalysisInput& input) {
                                {"force", cohesive  ? "F0"
                                          : pressed ? "a P"
                                                    : "m a / T0^2"},
+                               {"pressure", cohesive  ? "F0/a"
+                                            : pressed ? "P"
+                                                      : "m / T0^2"},
                                {"time", cohesive  ? "sqrt(m a / F0)"
                                         : pressed ? "sqrt(m / P)"
                                                   : "T0"}};
@@ -215,6 +223,7 @@ nlohmann::ordered_json analyze(const AnalysisInput& input, const AnalysisOptions
       continue;
     }
     try {
+      if (options.begins) options.begins(section.name);
       auto value = section.compute(input, options);
       report[section.name] = std::move(value);
     } catch (const InputError&) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "analysis/report_units.hpp"
 #include "dem/files/formats/real_text.hpp"
 
 namespace isostat {
@@ -66,7 +67,9 @@ void add_line(std::string& text, const std::string& name, const std::string& val
   text += line + value + '\n';
 }
 
-void add_lines(std::string& text, const std::string& prefix, const Json& object) {
+// `unit` knows the unit of a dotted name.
+template <class Unit>
+void add_lines(std::string& text, const std::string& prefix, const Json& object, const Unit& unit) {
   for (const auto& [key, v] : object.items()) {
     const std::string name = prefix + key;
     if (is_histogram(v)) {
@@ -75,9 +78,10 @@ void add_lines(std::string& text, const std::string& prefix, const Json& object)
       const Json message = v.value("message", Json());
       add_line(text, name, "NOT IDENTIFIABLE" + (message.is_string() ? ": " + message.get<std::string>() : ""));
     } else if (v.is_object() && !is_statistic(v)) {
-      add_lines(text, name + ".", v);
+      add_lines(text, name + ".", v, unit);
     } else {
-      add_line(text, name, short_text(v));
+      const std::string of = unit(name), number = short_text(v);
+      add_line(text, name, number + (of.empty() || number == "-" ? "" : " " + of));
     }
   }
 }
@@ -223,11 +227,14 @@ bool is_section(const std::string& key) { return key != "isostat" && key != "inp
 
 std::string report_as_text(const Json& report) {
   std::string text;
+  const Json units = report.value("units", Json::object());
   for (const auto& [key, v] : report.items()) {
     if (!is_section(key) || !v.is_object()) continue;
     text += key + '\n';
-    add_lines(text, "", v);
+    add_lines(text, "", v,
+              [&, section = key](const std::string& name) { return unit_of(section + "." + name, units); });
   }
+  if (!units.empty() && !units.contains("length")) text += "numbers with a unit are in that of the input file\n";
   return text;
 }
 

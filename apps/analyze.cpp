@@ -11,6 +11,9 @@
 #include "apps/analysis_options.hpp"
 #include "apps/arguments.hpp"
 #include "apps/commands.hpp"
+#include "apps/file_rule.hpp"
+#include "apps/json_output.hpp"
+#include "apps/work_line.hpp"
 #include "dem/files/atomic_file.hpp"
 #include "dem/input_error.hpp"
 
@@ -25,6 +28,8 @@ class Analysis {
 
   void add(const std::string& path) {
     try {
+      line_.begins(path + ": reading");
+      options_.begins = [this, path](std::string_view section) { line_.begins(path + ": " + std::string(section)); };
       const AnalysisInput input = load_input(path, options_);
       reports_.push_back(analyze(input, options_, only_));
       if (with_tables_) add_tables(input);
@@ -53,6 +58,7 @@ class Analysis {
   std::vector<nlohmann::ordered_json> reports_;
   std::vector<std::pair<std::string, std::string>> tables_;
   std::vector<Fault> faults_;
+  WorkLine line_;
 };
 
 }  // namespace
@@ -61,7 +67,7 @@ int analyze_command(int argc, char** argv) {
   std::string names;
   for (const Section& s : sections()) names += (names.empty() ? "" : ",") + std::string(s.name);
   const std::string only_help =
-      "sections to compute, among " + names + "; default: all that apply, without modes and bases";
+      "sections to compute, among " + names + "; default: all that apply, without modes, bases and dacf";
   const Arguments arguments(
       argc, argv,
       {{"--only", "LIST", only_help},
@@ -97,12 +103,17 @@ int analyze_command(int argc, char** argv) {
   refuse_options_of_other_sections(arguments, only);
 
   const auto json_path = arguments.value("--json"), csv_directory = arguments.value("--csv");
+  FileRule rule;
+  for (const std::string& path : arguments.inputs()) rule.reads("INPUT", path);
+  rule.writes("--json", json_path.value_or(""));
+  rule.require();
+  if (json_path && *json_path != "-") require_writable(*json_path);
   Analysis analysis(options, only, csv_directory.has_value());
   for (const std::string& path : arguments.inputs()) analysis.add(path);
   const nlohmann::ordered_json report = analysis.report();
 
   std::vector<std::pair<std::string, std::string>> files;
-  if (json_path && *json_path != "-") files.emplace_back(*json_path, report.dump(1) + "\n");
+  if (json_path && *json_path != "-") files.emplace_back(*json_path, json_text(report, 1));
   if (csv_directory) {
     std::error_code error;
     std::filesystem::create_directories(*csv_directory, error);
@@ -111,9 +122,12 @@ int analyze_command(int argc, char** argv) {
       for (const auto& [name, content] : source)
         files.emplace_back((std::filesystem::path(*csv_directory) / name).string(), content);
   }
+  for (const auto& [path, content] : files)
+    if (path != json_path) rule.writes("--csv", path);
+  rule.require();
   write_files_atomically(files);
   if (json_path == "-")
-    std::cout << report.dump(1) << '\n';
+    std::cout << json_text(report, 1);
   else if (!json_path)
     std::cout << report_as_text(report);
   return exit_done;

@@ -115,6 +115,16 @@ std::optional<double> Arguments::number(std::string_view name) const {
   return x;
 }
 
+std::optional<std::pair<double, double>> Arguments::two_numbers(std::string_view name, const std::string& rule) const {
+  const auto text = value(name);
+  if (!text) return std::nullopt;
+  const std::size_t comma = text->find(',');
+  const auto first = parse<double>(text->substr(0, comma));
+  const auto second = comma == std::string::npos ? std::nullopt : parse<double>(text->substr(comma + 1));
+  if (!first || !second || !std::isfinite(*first) || !std::isfinite(*second)) refuse(name, *text, rule);
+  return std::pair(*first, *second);
+}
+
 std::optional<long long> Arguments::integer(std::string_view name, long long low, long long high) const {
   const auto text = value(name);
   if (!text) return std::nullopt;

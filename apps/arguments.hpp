@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace isostat {
@@ -44,6 +45,8 @@ class Arguments {
 
   // InputError if the value is not a finite number / not an integer in range / not one of the choices.
   std::optional<double> number(std::string_view name) const;
+  // Two finite numbers with a comma between them; `rule` says in a fault what they are.
+  std::optional<std::pair<double, double>> two_numbers(std::string_view name, const std::string& rule) const;
   std::optional<long long> integer(std::string_view name, long long low, long long high) const;
   std::optional<std::string> choice(std::string_view name, std::span<const std::string_view> choices) const;
   std::optional<std::string> choice(std::string_view name, std::initializer_list<std::string_view> choices) const {

@@ -5,6 +5,7 @@
 
 #include "apps/arguments.hpp"
 #include "apps/commands.hpp"
+#include "apps/file_rule.hpp"
 #include "dem/files/atomic_file.hpp"
 #include "dem/files/formats/csv.hpp"
 #include "dem/files/formats/dump.hpp"
@@ -52,6 +53,16 @@ Files files_of(const Packing<D>& packing, const std::string& path, std::int64_t 
   return {{path, vtk_polydata(packing, time)}};
 }
 
+// None of them is the packing that was read, nor the contacts beside it.
+void write_all(const Files& files, const std::string& input) {
+  FileRule rule;
+  for (const std::string& read : {input, grains_csv_path(input), contacts_csv_path(input), links_dump_path(input)})
+    rule.reads("INPUT", read);
+  for (const auto& [path, content] : files) rule.writes("-o", path);
+  rule.require();
+  write_files_atomically(files);
+}
+
 }  // namespace
 
 int convert_command(int argc, char** argv) {
@@ -72,6 +83,10 @@ int convert_command(int argc, char** argv) {
   if (reading.gap_tolerance && *reading.gap_tolerance < 0)
     throw InputError("command line", 0, "--gap-tolerance", *arguments.value("--gap-tolerance"), "must not be negative");
 
+  FileRule rule;
+  rule.reads("INPUT", input_path);
+  rule.writes("-o", output);
+  rule.require();
   const PackingFile file = read_packing(input_path, reading);
   if (!file.state.packing.beams.empty() && !output.ends_with(".net") && !output.ends_with(".vtp"))
     throw InputError(input_path, 0, "-o", output, "beams are kept by .net files only (and drawn in .vtp)");
@@ -104,11 +119,12 @@ int convert_command(int argc, char** argv) {
     return exit_done;
   }
   if (file.spheres) {
-    write_files_atomically(files_of(*file.packing_3d, output, file.spheres->step, file.spheres->time));
+    write_all(files_of(*file.packing_3d, output, file.spheres->step, file.spheres->time), input_path);
     return exit_done;
   }
-  write_files_atomically(file.packing_3d ? files_of(*file.packing_3d, output, state.step, state.time)
-                                         : files_of(state.packing, output, state.step, state.time));
+  write_all(file.packing_3d ? files_of(*file.packing_3d, output, state.step, state.time)
+                            : files_of(state.packing, output, state.step, state.time),
+            input_path);
   return exit_done;
 }
 

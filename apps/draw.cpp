@@ -10,6 +10,7 @@
 #include "analysis/load_input.hpp"
 #include "apps/commands.hpp"
 #include "apps/draw/subjects.hpp"
+#include "apps/file_rule.hpp"
 #include "dem/input_error.hpp"
 
 namespace isostat {
@@ -80,6 +81,16 @@ Drawing drawing_of(const Arguments& arguments, const std::vector<AnalysisInput>&
   return system == Drawn::triangles ? drawing_of_triangles(arguments, inputs) : drawing_of_disks(arguments, inputs);
 }
 
+std::optional<Vec2> page_of(const Arguments& arguments) {
+  const auto size = arguments.two_numbers("--size", "must be WIDTH,HEIGHT in points, each from 100 to 8000");
+  if (!size) return std::nullopt;
+  for (const double edge : {size->first, size->second})
+    if (!(edge >= 100 && edge <= 8000))
+      throw InputError("command line", 0, "--size", *arguments.value("--size"),
+                       "must be WIDTH,HEIGHT in points, each from 100 to 8000");
+  return Vec2{{size->first, size->second}};
+}
+
 }  // namespace
 
 ForceConvention convention_of(const Arguments& arguments) {
@@ -114,6 +125,7 @@ int draw_command(int argc, char** argv) {
         "spheres: from where, x, y, z or AZIMUTH,ELEVATION in degrees, 0,0 from x, 0,90 from above; default -60,20"},
        {"--slice", "AXIS=POSITION", "spheres: a plane section, as in z=0.5, drawn as disks"},
        {"--fps", "N", "the inputs one after the other as a film that plays, N frames a second; default 10"},
+       {"--size", "WIDTH,HEIGHT", "of the page in points (PNG: 2 pixels each): frames drawn one by one fit together"},
        {"--stroboscopic", "", "all inputs in one picture, the earlier the paler"}},
       {"INPUT... -o FILE",
        "Draws a packing: its grains, the forces between them, pores, rigid clusters, motion; several as a film."});
@@ -123,6 +135,10 @@ int draw_command(int argc, char** argv) {
   if (const auto threshold = arguments.number("--threshold"); threshold && !(*threshold > 0))
     throw InputError("command line", 0, "--threshold", *arguments.value("--threshold"), "must be positive");
   const std::string path = arguments.required("-o");
+  FileRule rule;
+  for (const std::string& input : arguments.inputs()) rule.reads("INPUT", input);
+  rule.writes("-o", path);
+  rule.require();
   const bool film = is_film(arguments, path);
   std::optional<FilmFile> film_file;
   std::optional<FigureFile> picture_file;
@@ -134,7 +150,14 @@ int draw_command(int argc, char** argv) {
   const std::vector<AnalysisInput> inputs = load_all(arguments.inputs());
   Drawing drawing = drawing_of(arguments, inputs);
   if (!film) drawing.captions.clear();
-  const PictureSeries series(std::move(drawing.subjects), drawing.length_unit, std::move(drawing.captions));
+  const PictureSeries series = [&] {
+    try {
+      return PictureSeries(std::move(drawing.subjects), drawing.length_unit, std::move(drawing.captions),
+                           page_of(arguments));
+    } catch (const std::invalid_argument& error) {
+      throw InputError("command line", 0, "--size", arguments.value("--size").value_or(""), error.what());
+    }
+  }();
   if (film) {
     film_file->write(series);
     return exit_done;

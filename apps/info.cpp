@@ -7,6 +7,7 @@
 
 #include "apps/arguments.hpp"
 #include "apps/commands.hpp"
+#include "apps/json_output.hpp"
 #include "dem/disks/scales.hpp"
 #include "dem/files/state_file.hpp"
 #include "dem/files/state_seal.hpp"
@@ -204,7 +205,7 @@ int info_command(int argc, char** argv) {
   arguments.require_inputs(1, 1, "one state file");
   const StateFile file = read_state_file(arguments.inputs()[0]);
   const Json json = std::visit([&file](const auto& state) { return info_json(state, file); }, file.state);
-  std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+  std::cout << json_text(json, 2);
   return exit_done;
 }
 

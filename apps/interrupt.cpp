@@ -1,5 +1,6 @@
 #include "apps/interrupt.hpp"
 
+#include <array>
 #include <atomic>
 #include <csignal>
 
@@ -8,6 +9,9 @@ namespace {
 
 std::atomic<bool> asked{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
+
+// SIGHUP: the terminal is closed; not where it is ignored, as under nohup.
+constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 
 void handle(int signal) {
   if (asked.exchange(true)) {
@@ -20,13 +24,13 @@ void handle(int signal) {
 
 InterruptGuard::InterruptGuard() {
   asked = false;
-  std::signal(SIGINT, handle);
-  std::signal(SIGTERM, handle);
+  for (const int signal : kSignals)
+    if (std::signal(signal, handle) == SIG_IGN && signal == SIGHUP) std::signal(signal, SIG_IGN);
 }
 
 InterruptGuard::~InterruptGuard() {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  for (const int signal : kSignals)
+    if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
 bool InterruptGuard::requested() { return asked.load(std::memory_order_relaxed); }

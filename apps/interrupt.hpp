@@ -1,4 +1,5 @@
-// Ctrl-C and SIGTERM ask for a stop; the run polls and stops resumably. A second one ends the program at once.
+// Ctrl-C, SIGTERM and SIGHUP (the terminal is closed) ask for a stop; the run polls and stops resumably. A second one
+// ends the program at once.
 #pragma once
 
 namespace isostat {

@@ -1,6 +1,11 @@
 // isostat COMMAND ...: dispatch, and the one place where exceptions become exit codes.
+#include <fcntl.h>
+
+#include <csignal>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <new>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -75,8 +80,23 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace isostat
 
+namespace isostat {
+namespace {
+
+// Files that are opened must not get the numbers of standard streams that are closed: what is meant for those would go
+// into them.
+void open_standard_streams() {
+  for (int number = 0; number <= 2; ++number)
+    if (::fcntl(number, F_GETFD) < 0 && ::open("/dev/null", O_RDWR) < 0) std::_Exit(exit_internal);
+}
+
+}  // namespace
+}  // namespace isostat
+
 int main(int argc, char** argv) {
   using namespace isostat;
+  open_standard_streams();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit is then an error of its writing
   try {
     const int code = run(argc, argv);
     std::cout.flush();
@@ -87,6 +107,9 @@ int main(int argc, char** argv) {
     return exit_done;
   } catch (const InputError& error) {
     std::cerr << "isostat: " << error.what() << '\n';
+    return exit_bad_input;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "isostat: not enough memory for this; fewer grains, or a machine with more\n";
     return exit_bad_input;
   } catch (const std::exception& error) {
     std::cerr << "isostat: internal error: " << error.what() << '\n';

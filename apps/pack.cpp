@@ -8,10 +8,12 @@
 
 #include "apps/arguments.hpp"
 #include "apps/commands.hpp"
+#include "apps/file_rule.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/json_output.hpp"
+#include "apps/pack/lines.hpp"
 #include "apps/progress_line.hpp"
 #include "apps/sample_run.hpp"
-#include "dem/disks/scales.hpp"
 #include "dem/files/atomic_file.hpp"
 #include "dem/input_error.hpp"
 #include "dem/run/stages.hpp"
@@ -47,20 +49,6 @@ std::string command_text(const PackJob& job) {
   return text;
 }
 
-// What marches: the fixed or driven grains of walls are left out.
-struct Bulk {
-  std::int64_t grains = 0, triangles = 0;
-};
-Bulk bulk(const State<Disks>& state) { return {static_cast<std::int64_t>(state.packing.bodies.size()), 0}; }
-Bulk bulk(const State<Spheres>& state) { return {static_cast<std::int64_t>(state.packing.bodies.size()), 0}; }
-Bulk bulk(const State<TriangleGrains>& state) {
-  const Grains& g = state.packing.grains;
-  Bulk b;
-  for (std::size_t k = 0; k < g.size(); ++k)
-    if (g.part[k] == GrainPart::free) ++b.grains, b.triangles += g.begin[k + 1] - g.begin[k];
-  return b;
-}
-
 // Of all samples: steps, and steps times what was there at the end.
 struct Totals {
   RunOutcome run;
@@ -82,8 +70,10 @@ ExitCode run_one(const PackJob& job, int k, ProgressLine& line, Totals& total, s
   SampleWatch watch;
   watch.interrupted = InterruptGuard::requested;
   watch.progress = [&](const Progress& p) { line.update(p, job.scene, k); };
-  watch.ended = [&](const AnyState& any, const SampleOutcome&) {
-    size = std::visit([](const auto& s) { return bulk(s); }, any);
+  std::string last;
+  watch.ended = [&](const AnyState& any, const SampleOutcome& ended) {
+    size = bulk(any);
+    last = last_line(ended.code == exit_interrupted ? partial_name(output) : output, any, ended);
   };
   const SampleOutcome outcome = run_sample(sample, watch);
   const std::scoped_lock hold(lock);
@@ -92,47 +82,10 @@ ExitCode run_one(const PackJob& job, int k, ProgressLine& line, Totals& total, s
   total.run.wall_seconds = std::max(total.run.wall_seconds, outcome.run.wall_seconds);
   total.grain_steps += outcome.run.steps * size.grains;
   total.triangle_steps += outcome.run.steps * size.triangles;
-  for (const std::string& text : outcome.messages) std::cerr << "isostat pack: " << output << ": " << text << '\n';
+  std::string told;
+  for (const std::string& text : outcome.messages) told += "isostat pack: " + output + ": " + text + "\n";
+  line.tell(told + last);
   return outcome.code;
-}
-
-std::string text(std::optional<double> x) {
-  char buffer[32];
-  if (!x) return "-";
-  std::snprintf(buffer, sizeof buffer, "%.4g", *x);
-  return buffer;
-}
-
-void print_scales(const PackJob& job, const State<TriangleGrains>& state) {
-  const Bulk b = bulk(state);
-  const std::size_t walls = state.packing.grains.size() - static_cast<std::size_t>(b.grains);
-  std::cerr << b.grains << " grains of " << b.triangles << " triangles";
-  if (walls > 0) std::cerr << ", " << walls << " grains of walls";
-  std::cerr << "  omega_max " << text(job.scene.step.fraction / state.time_step) << " 1/s  dt " << text(state.time_step)
-            << " s; units cm, g, s\n";
-}
-
-void print_scales(const PackJob&, const State<Spheres>& state) {
-  const auto [smallest, largest] =
-      std::minmax_element(state.packing.bodies.radius.begin(), state.packing.bodies.radius.end());
-  std::cerr << state.packing.bodies.size() << " spheres  d " << text(2 * *smallest) << " to " << text(2 * *largest)
-            << " a  dt " << text(state.time_step) << " T0\n";
-}
-
-void print_scales(const PackJob& job, const State<Disks>& state) {
-  State<Disks> first = state;
-  first.imposed_stress = job.scene.stages.empty() ? ImposedStress<2>{} : imposed_stress<2>(job.scene.stages.front());
-  const Scales s = scales(first);
-  std::cerr << "kappa " << text(s.kappa) << "  P* " << text(s.reduced_pressure) << "  h0/D0 "
-            << text(s.overlap_over_range) << "  e_N " << text(s.restitution) << "  V* " << text(s.velocity) << "  T0 "
-            << text(s.time) << "  dt " << text(s.time_step) << " T0  dt/dt_critical "
-            << text(s.time_step / s.critical_time_step) << '\n';
-  if (job.scene.units) {
-    const SiScales si = si_scales(*job.scene.units);
-    std::cerr << "SI: a " << text(si.length) << " m  F0 " << text(si.force) << " N  T0 " << text(si.time) << " s  V* "
-              << text(s.velocity ? std::optional(*s.velocity * si.velocity()) : std::nullopt) << " m/s  F0/a "
-              << text(si.pressure()) << " N/m\n";
-  }
 }
 
 void write_timings(const std::string& path, const Totals& total, SceneSystem system) {
@@ -145,7 +98,49 @@ void write_timings(const std::string& path, const Totals& total, SceneSystem sys
   json["cpu_seconds"] = total.run.cpu_seconds;
   json["wall_seconds"] = total.run.wall_seconds;
   json["stages"] = stages;
-  write_file_atomically(path, json.dump(2) + "\n");
+  write_file_atomically(path, json_text(json, 2));
+}
+
+// Every file that the run may write. None of them may be one that it reads.
+std::vector<std::string> files_of(const PackJob& job, const std::optional<std::string>& timings) {
+  FileRule rule;
+  std::vector<std::string> all;
+  const auto writes = [&](const char* role, const std::string& path) {
+    rule.writes(role, path);
+    if (!path.empty()) all.push_back(path);
+  };
+  rule.reads("the scene", job.scene_path);
+  rule.reads("grains.file", job.scene.grains.file);
+  const OutputScene& o = job.scene.output;
+  for (int k = 0; k < job.samples; ++k) {
+    const std::string output = numbered(job.output, k, job.samples);
+    if (!o.snapshot_times.empty() || !o.snapshot_solid_fractions.empty())
+      rule.writes_numbered("the snapshots", output, "snapshot");
+    writes("-o", output);
+    writes("-o, the partial state", partial_name(output));
+    for (std::size_t stage = 0; o.stages && stage + 1 < job.scene.stages.size(); ++stage)
+      writes("output.stages", stage_name(output, stage));
+    writes("output.series", numbered(o.series, k, job.samples));
+  }
+  writes("--timings", timings.value_or(""));
+  rule.require();
+  return all;
+}
+
+// What somebody may still want is not replaced unasked: an interrupted run, and a finished state unless this very run
+// makes it again.
+void refuse_to_lose(const PackJob& job) {
+  std::vector<Fault> faults;
+  for (int k = 0; k < job.samples; ++k) {
+    const std::string output = numbered(job.output, k, job.samples), partial = partial_name(output);
+    if (std::filesystem::exists(partial))
+      faults.push_back({partial, 0, "", "", "an interrupted run: --resume goes on from it, --force begins anew"});
+    else if (std::filesystem::is_regular_file(output))
+      if (const std::string what = lost_with(output, job.scene, job.seed + static_cast<std::uint64_t>(k), job.max_time);
+          !what.empty())
+        faults.push_back({output, 0, "-o", "", what + "; --force replaces it"});
+  }
+  if (!faults.empty()) throw InputError(std::move(faults));
 }
 
 // One thread a sample, at most `threads` at a time. The worst exit code wins; bad input of one stops all.
@@ -164,16 +159,18 @@ int run_samples(const PackJob& job, Totals& total) {
 }  // namespace
 
 int pack_command(int argc, char** argv) {
-  const Arguments args(argc, argv,
-                       {{"-o", "STATE.h5", "where the final state goes"},
-                        {"--seed", "N", "seed of the random initial state; default: the scene's"},
-                        {"--threads", "N", "threads; the result does not depend on them (default 1)"},
-                        {"--samples", "N", "run N samples with seeds N, N+1, ... -> STATE.0001.h5 ..."},
-                        {"--set", "KEY=VALUE", "override a scene key", true},
-                        {"--max-time", "T", "stop, unfinished, when the run's time reaches T [T0; triangles: s]"},
-                        {"--resume", "", "go on from STATE.h5.partial"},
-                        {"--timings", "FILE.json", "where the time of the step loop went"}},
-                       {"SCENE.toml -o STATE.h5", "Runs the stages of a scene and writes the state it ends in."});
+  const Arguments args(
+      argc, argv,
+      {{"-o", "STATE.h5", "where the final state goes"},
+       {"--seed", "N", "seed of the random initial state; default: the scene's"},
+       {"--threads", "N", "threads; the result does not depend on them (default 1)"},
+       {"--samples", "N", "run N samples with seeds N, N+1, ... -> STATE.0001.h5 ..."},
+       {"--set", "KEY=VALUE", "override a scene key", true},
+       {"--max-time", "T", "stop, unfinished, when the run's time reaches T [T0; triangles: s]"},
+       {"--resume", "", "go on from STATE.h5.partial"},
+       {"--force", "", "replace a finished state of another scene or seed; begin an interrupted run anew"},
+       {"--timings", "FILE.json", "where the time of the step loop went"}},
+      {"SCENE.toml -o STATE.h5", "Runs the stages of a scene and writes the state it ends in."});
   args.require_inputs(1, 1, "one scene file");
   PackJob job;
   job.scene_path = args.inputs()[0];
@@ -190,13 +187,13 @@ int pack_command(int argc, char** argv) {
       static_cast<std::uint64_t>(args.integer("--seed", 0, INT64_MAX).value_or(static_cast<long long>(job.scene.seed)));
   if (std::filesystem::path(job.output).extension() != ".h5")
     throw InputError("command line", 0, "-o", job.output, "a state file's name ends in .h5");
-  for (int k = 0; k < job.samples; ++k) require_writable(numbered(job.output, k, job.samples));
-  if (!job.scene.output.series.empty())
-    for (int k = 0; k < job.samples; ++k) require_writable(numbered(job.scene.output.series, k, job.samples));
-  if (const auto path = args.value("--timings")) require_writable(*path);
+  const std::vector<std::string> written = files_of(job, args.value("--timings"));
+  require_writable(written);
+  remove_abandoned(written);
+  if (!job.resume && !args.has("--force")) refuse_to_lose(job);
 
   const InterruptGuard guard;
-  std::visit([&job](const auto& state) { print_scales(job, state); }, initial_state(job.scene, job.seed));
+  std::cerr << first_lines(job.scene, initial_state(job.scene, job.seed));
   Totals total;
   const int code = run_samples(job, total);
   if (const auto path = args.value("--timings")) write_timings(*path, total, job.scene.system);

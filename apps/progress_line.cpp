@@ -89,4 +89,11 @@ void ProgressLine::update(const Progress& p, const Scene& scene, int sample) {
   std::fflush(stderr);
 }
 
+void ProgressLine::tell(const std::string& lines) {
+  const std::scoped_lock hold(lock_);
+  std::fprintf(stderr, "%s%s", terminal_ && last_shown_ >= 0 ? "\r\033[K" : "", lines.c_str());
+  std::fflush(stderr);
+  last_shown_ = -1;
+}
+
 }  // namespace isostat

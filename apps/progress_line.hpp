@@ -18,6 +18,7 @@ class ProgressLine {
   ProgressLine(int stages, int samples);  // silent unless stderr is a terminal
   ~ProgressLine();                        // ends the line
   void update(const Progress& progress, const Scene& scene, int sample);
+  void tell(const std::string& lines);  // on stderr, terminal or not, without the progress in the way
 
  private:
   double seconds_left(const Progress& progress, const StageScene& stage);

@@ -31,6 +31,9 @@ class SeriesFile {
       std::ifstream in(path);
       std::string line;
       std::getline(in, line);
+      if (line + "\n" != kept)
+        throw InputError(path, 0, "output.series", path,
+                         "has other columns than this run: move it away, or begin anew");
       while (std::getline(in, line))
         if (std::strtod(line.c_str(), nullptr) <= resumed_at) kept += line + "\n";
     }
@@ -52,15 +55,37 @@ std::unique_ptr<StaticSolver<Disks>> static_solver(const State<Disks>&) { return
 std::unique_ptr<StaticSolver<TriangleGrains>> static_solver(const State<TriangleGrains>&) { return nullptr; }
 std::unique_ptr<StaticSolver<Spheres>> static_solver(const State<Spheres>&) { return nullptr; }
 
+// STATE.LABEL.h5
+std::string beside(const std::string& output, const std::string& label) {
+  const std::filesystem::path p(output);
+  return (p.parent_path() / (p.stem().string() + "." + label + p.extension().string())).string();
+}
+
+// Why a state is not the end of its run; empty: it is.
+std::string what_is_missing(const AnyState& any) {
+  return std::visit(
+      [](const auto& s) -> std::string {
+        const auto stages = static_cast<std::int32_t>(s.scene.stages.size());
+        if (!s.progress.unmet.empty()) return s.progress.unmet;
+        if (s.progress.stage < stages)
+          return "it is in stage " + std::to_string(s.progress.stage) + " of " + std::to_string(stages);
+        return "";
+      },
+      any);
+}
+
+// What makes the same state: the scene but for what is watched of it.
+std::string makes(Scene scene) {
+  scene.output = {};
+  return scene_to_toml(scene);
+}
+
 class SampleRun {
  public:
   SampleRun(const SampleJob& job, const SampleWatch& watch) : job_(job), watch_(watch) {}
 
   SampleOutcome run() {
-    if (job_.resume && !std::filesystem::exists(partial()) && std::filesystem::exists(job_.output)) {
-      check_same(read_state(job_.output), job_.output);
-      return {};
-    }
+    if (job_.resume && !std::filesystem::exists(partial()) && std::filesystem::exists(job_.output)) return found();
     start();
     return std::visit([this](auto& state) { return march(state); }, state_);
   }
@@ -80,6 +105,7 @@ class SampleRun {
       outcome.code = exit_unfinished;
       outcome.blew_up = true;
       outcome.messages = {std::string("the run blew up: ") + e.what() + "; the last sane state is kept"};
+      state.progress.add_unmet(std::string("the run blew up: ") + e.what());
       end(state, outcome, job_.output);
       return outcome;
     }
@@ -95,6 +121,9 @@ class SampleRun {
       const std::string stage = "stage " + std::to_string(s.stage);
       if (!s.met)
         outcome.messages.push_back(stage + " did not meet its end: " + s.reason);
+      else if (s.nothing_touches)
+        outcome.messages.push_back(stage + " meets the criteria of equilibrium with no contact at all: what acts is " +
+                                   "below the tolerances, a part of F1 = max(F0, a P)");
       else if (s.moving > 0)
         outcome.messages.push_back(stage + " meets the criteria of equilibrium, but " + std::to_string(s.moving) +
                                    " grains still move in floppy or soft modes" +
@@ -110,10 +139,19 @@ class SampleRun {
   }
 
   std::string partial() const { return partial_name(job_.output); }
-  // STATE.LABEL.h5
-  std::string beside(const std::string& label) const {
-    const std::filesystem::path p(job_.output);
-    return (p.parent_path() / (p.stem().string() + "." + label + p.extension().string())).string();
+
+  // There is a final state, and nothing to resume.
+  SampleOutcome found() const {
+    const AnyState any = read_state(job_.output);
+    check_same(any, job_.output);
+    SampleOutcome outcome;
+    if (const std::string why = what_is_missing(any); !why.empty()) {
+      outcome.code = exit_unfinished;
+      outcome.messages = {"is there, unfinished, with nothing to resume from: " + why +
+                          "; --force in place of --resume begins anew"};
+    }
+    if (watch_.ended) watch_.ended(any, outcome);
+    return outcome;
   }
 
   template <class System>
@@ -163,7 +201,7 @@ class SampleRun {
     if (o.stages)
       hooks.stage_end = [this](const State<System>& s) {
         const auto next = static_cast<std::size_t>(s.progress.stage);
-        if (next < job_.scene.stages.size()) write(s, beside("stage" + std::to_string(next - 1)));
+        if (next < job_.scene.stages.size()) write(s, stage_name(job_.output, next - 1));
       };
     if (!job_.series.empty()) {
       series_ = std::make_unique<SeriesFile>(job_.series, series_columns(state, o.energies), resumed_at_);
@@ -180,7 +218,7 @@ class SampleRun {
   std::string snapshot(int number) const {
     char label[24];
     std::snprintf(label, sizeof label, "snapshot%04d", number);
-    return beside(label);
+    return beside(job_.output, label);
   }
 
   // A resumed run numbers its snapshots on from the last one before the checkpoint. They are numbered in order of time:
@@ -203,6 +241,25 @@ class SampleRun {
 }  // namespace
 
 std::string partial_name(const std::string& output) { return output + ".partial"; }
+
+std::string stage_name(const std::string& output, std::size_t stage) {
+  return beside(output, "stage" + std::to_string(stage));
+}
+
+std::string lost_with(const std::string& path, const Scene& scene, std::uint64_t seed, double max_time) {
+  try {
+    const AnyState any = read_state(path);
+    if (!what_is_missing(any).empty()) return "";
+    const auto [old_seed, old_scene] = std::visit([](const auto& s) { return std::pair(s.seed, makes(s.scene)); }, any);
+    if (old_seed != seed) return "holds the finished state of seed " + std::to_string(old_seed);
+    if (old_scene != makes(scene)) return "holds the finished state of another scene";
+    if (max_time > 0 && std::visit([](const auto& s) { return s.time; }, any) > max_time)
+      return "holds the finished state, and --max-time may stop this run before";
+    return "";
+  } catch (const InputError&) {
+    return "is no state that can be read";
+  }
+}
 
 SampleOutcome run_sample(const SampleJob& job, const SampleWatch& watch) { return SampleRun(job, watch).run(); }
 

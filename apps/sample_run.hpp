@@ -42,6 +42,12 @@ struct SampleWatch {
 // NAME.h5 -> NAME.h5.partial: where a run that has not ended goes on from.
 std::string partial_name(const std::string& output);
 
+// NAME.h5 -> NAME.stageK.h5: the state after a stage that is not the last (output.stages).
+std::string stage_name(const std::string& output, std::size_t stage);
+// What would be lost if this run replaced the file, in words: a finished state that this run does not make again, or
+// what is no state. Empty: nothing.
+std::string lost_with(const std::string& path, const Scene& scene, std::uint64_t seed, double max_time);
+
 // Throws InputError if a file cannot be read or written, or (resume) if the files there are of another scene or seed.
 SampleOutcome run_sample(const SampleJob& job, const SampleWatch& watch);
 

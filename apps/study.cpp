@@ -11,6 +11,7 @@
 
 #include "apps/arguments.hpp"
 #include "apps/commands.hpp"
+#include "apps/file_rule.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/sample_run.hpp"
 #include "apps/study/process_pool.hpp"
@@ -84,6 +85,22 @@ void check_existing(const std::vector<StudyRun>& runs, bool fresh) {
         faults.push_back({path, 0, "", "", "is of another study: it has " + difference + "; --fresh runs it again"});
     }
   if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+// A study that lies in its own folder, or whose scenes and grains do, must not write over them.
+void refuse_own_inputs(const Study& study, const std::vector<StudyRun>& runs, const std::string& folder) {
+  FileRule rule;
+  rule.reads("STUDY.toml", study.path);
+  for (const ParameterSet& set : study.sets) {
+    rule.reads("the scene", set.scene_path);
+    rule.reads("grains.file", set.scene.grains.file);
+  }
+  for (const char* table : {"study.csv", "runs.csv", "study.json"})
+    rule.writes("a table of the study", (fs::path(folder) / table).string());
+  for (const StudyRun& run : runs)
+    for (const std::string& path : {run.state(), partial_name(run.state()), run.record(), run.series()})
+      rule.writes("a file of the run " + fs::path(run.base).filename().string(), path);
+  rule.require();
 }
 
 // What a killed study may have left half written.
@@ -220,6 +237,7 @@ int study_command(int argc, char** argv) {
   if (error) throw InputError(folder, 0, "-o", "", "cannot be made: " + error.message());
   const FolderLock lock(folder);
   StudyRunner runner(study, folder, at_a_time);
+  refuse_own_inputs(study, runner.runs(), folder);
   if (there) check_existing(runner.runs(), args.has("--fresh"));
   require_writable((fs::path(folder) / "study.csv").string());
   remove_temporaries(folder);

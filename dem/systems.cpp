@@ -6,13 +6,16 @@
 #include "dem/spheres/check.hpp"
 #include "dem/spheres/keys.hpp"
 #include "dem/spheres/sample.hpp"
+#include "dem/state/lengths.hpp"
 #include "dem/triangles/check.hpp"
 #include "dem/triangles/keys.hpp"
 #include "dem/triangles/sample.hpp"
 
 namespace isostat {
 
-AnyState initial_state(const Scene& scene, std::uint64_t seed) {
+namespace {
+
+AnyState made(const Scene& scene, std::uint64_t seed) {
   switch (scene.system) {
     case SceneSystem::disks:
       break;
@@ -22,6 +25,14 @@ AnyState initial_state(const Scene& scene, std::uint64_t seed) {
       return initial_spheres(scene, seed);
   }
   return initial_disks(scene, seed);
+}
+
+}  // namespace
+
+AnyState initial_state(const Scene& scene, std::uint64_t seed) {
+  AnyState any = made(scene, seed);
+  std::visit([](const auto& state) { require_lengths(state.packing.cell, state.packing.bodies, "scene"); }, any);
+  return any;
 }
 
 std::vector<SceneKey> system_keys() {

@@ -10,7 +10,7 @@
 namespace isostat {
 namespace {
 
-constexpr double kFrameWidth = 380, kEdge = 12, kText = 9.5, kTitle = 10.5;       // [pt]
+constexpr double kEdge = 12, kTitleLarger = 1;                                    // [pt]
 constexpr double kTick = 4.5, kMinorTick = 2.5, kTickGap = 4, kTitleGap = 7;      // [pt]
 constexpr double kPanelGap = 8, kLabelSpacingX = 62, kLabelSpacingY = 34;         // [pt]
 constexpr double kBaseline = 0.36;                                                // [em]
@@ -19,22 +19,22 @@ constexpr double kSample = 20, kSampleGap = 6, kLegendPad = 6, kLegendRow = 1.5;
 // Low frames have their labels closer together.
 double label_spacing_y(double height) { return height < 120 ? 24 : kLabelSpacingY; }
 
-double widest_label(const Ticks& ticks) {
+double widest_label(const Ticks& ticks, double font) {
   double width = 0;
-  for (const Tick& t : ticks.ticks) width = std::max(width, text_width(t.label, kText));
+  for (const Tick& t : ticks.ticks) width = std::max(width, text_width(t.label, font));
   return width;
 }
 
 struct LegendBox {
   double width = 0, height = 0;
 };
-LegendBox legend_box(const Chart& chart) {
+LegendBox legend_box(const Chart& chart, double font) {
   double width = 0, rows = 0;
   for (const Curve& c : chart.curves)
-    if (!c.label.empty()) width = std::max(width, kSample + kSampleGap + text_width(c.label, kText)), rows += 1;
-  for (const RichText& note : chart.notes) width = std::max(width, text_width(note, kText)), rows += 1;
+    if (!c.label.empty()) width = std::max(width, kSample + kSampleGap + text_width(c.label, font)), rows += 1;
+  for (const RichText& note : chart.notes) width = std::max(width, text_width(note, font)), rows += 1;
   if (rows == 0) return {};
-  return {width + 2 * kLegendPad, rows * kLegendRow * kText + kLegendPad};
+  return {width + 2 * kLegendPad, rows * kLegendRow * font + kLegendPad};
 }
 
 bool contains(const Rect& r, const Vec2& p) {
@@ -61,19 +61,19 @@ std::optional<Vec2> free_place(const ChartFrame& frame, const Chart& chart, cons
   return std::nullopt;
 }
 
-void draw_legend(Canvas& canvas, const Chart& chart, const Vec2& top_left) {
-  double y = top_left[1] + kLegendPad / 2 + kLegendRow * kText / 2;
+void draw_legend(Canvas& canvas, const Chart& chart, const Vec2& top_left, double font) {
+  double y = top_left[1] + kLegendPad / 2 + kLegendRow * font / 2;
   const double x = top_left[0] + kLegendPad;
-  const TextStyle style{kText, Anchor::start, kInk, false};
+  const TextStyle style{font, Anchor::start, kInk, false};
   for (std::size_t c = 0; c < chart.curves.size(); ++c) {
     if (chart.curves[c].label.empty()) continue;
     draw_sample(canvas, {{x, y}}, kSample, chart, c);
-    canvas.text({{x + kSample + kSampleGap, y + kBaseline * kText}}, chart.curves[c].label, style);
-    y += kLegendRow * kText;
+    canvas.text({{x + kSample + kSampleGap, y + kBaseline * font}}, chart.curves[c].label, style);
+    y += kLegendRow * font;
   }
   for (const RichText& note : chart.notes) {
-    canvas.text({{x, y + kBaseline * kText}}, note, style);
-    y += kLegendRow * kText;
+    canvas.text({{x, y + kBaseline * font}}, note, style);
+    y += kLegendRow * font;
   }
 }
 
@@ -81,7 +81,8 @@ void tick_line(Canvas& canvas, const Vec2& from, const Vec2& inwards) {
   canvas.polyline(std::array{from, from + inwards}, {kInk, 0.7, {}});
 }
 
-void draw_axes(Canvas& canvas, const ChartFrame& frame, bool labels_x, double title_x) {
+void draw_axes(Canvas& canvas, const ChartFrame& frame, bool labels_x, double title_x, double font) {
+  const double title_font = font + kTitleLarger;
   const Rect& box = frame.box;
   const Ticks along = ticks(frame.x, box.width, kLabelSpacingX),
               up = ticks(frame.y, box.height, label_spacing_y(box.height));
@@ -90,32 +91,34 @@ void draw_axes(Canvas& canvas, const ChartFrame& frame, bool labels_x, double ti
     tick_line(canvas, {{x, box.bottom()}}, {{0, -size}});
     tick_line(canvas, {{x, box.y}}, {{0, size}});
     if (labels_x && !t.label.empty())
-      canvas.text({{x, box.bottom() + kTickGap + kText}}, t.label, {kText, Anchor::middle, kInk, false});
+      canvas.text({{x, box.bottom() + kTickGap + font}}, t.label, {font, Anchor::middle, kInk, false});
   }
   for (const Tick& t : up.ticks) {
     const double y = box.bottom() - box.height * frame.y.fraction(t.value), size = t.label.empty() ? kMinorTick : kTick;
     tick_line(canvas, {{box.x, y}}, {{size, 0}});
     tick_line(canvas, {{box.right(), y}}, {{-size, 0}});
     if (!t.label.empty())
-      canvas.text({{box.x - kTickGap, y + kBaseline * kText}}, t.label, {kText, Anchor::end, kInk, false});
+      canvas.text({{box.x - kTickGap, y + kBaseline * font}}, t.label, {font, Anchor::end, kInk, false});
   }
   canvas.rectangle(box, {std::nullopt, Stroke{kInk, 0.9, {}}});
   const auto with_factor = [](const RichText& title, const Ticks& t) {
     return t.factor.empty() ? title : title + plain("   (") + t.factor + plain(")");
   };
   if (labels_x)
-    canvas.text({{box.x + box.width / 2, box.bottom() + kTickGap + kText + kTitleGap + kTitle}},
-                with_factor(frame.x.title, along), {kTitle, Anchor::middle, kInk, false});
+    canvas.text({{box.x + box.width / 2, box.bottom() + kTickGap + font + kTitleGap + title_font}},
+                with_factor(frame.x.title, along), {title_font, Anchor::middle, kInk, false});
   const RichText title_y = with_factor(frame.y.title, up);
-  const double fits = std::min(1.0, box.height / std::max(1.0, text_width(title_y, kTitle)));
-  canvas.text({{title_x, box.y + box.height / 2}}, title_y, {kTitle * fits, Anchor::middle, kInk, true});
+  const double fits = std::min(1.0, box.height / std::max(1.0, text_width(title_y, title_font)));
+  canvas.text({{title_x, box.y + box.height / 2}}, title_y, {title_font * fits, Anchor::middle, kInk, true});
 }
 
 }  // namespace
 
-ChartFigure::ChartFigure(std::vector<Chart> charts, bool share_x) {
+ChartFigure::ChartFigure(std::vector<Chart> charts, bool share_x, const ChartStyle& style) : style_(style) {
+  const double font = style.text, title_font = font + kTitleLarger;
   if (charts.empty()) throw std::invalid_argument("no value to show");
   for (Chart& chart : charts) {
+    if (style.height) chart.height = *style.height;
     Panel panel;
     panel.x = fitted_x_axis(chart);
     panel.y = fitted_y_axis(chart, panel.x);
@@ -132,25 +135,26 @@ ChartFigure::ChartFigure(std::vector<Chart> charts, bool share_x) {
   }
   double left = 0, beside = 0, y = kEdge;
   for (const Panel& p : panels_)
-    left = std::max(left, widest_label(ticks(p.y, p.chart.height, label_spacing_y(p.chart.height))));
-  left += kEdge + kTitle + kTitleGap + kTickGap;
+    left = std::max(left, widest_label(ticks(p.y, p.chart.height, label_spacing_y(p.chart.height)), font));
+  left += kEdge + title_font + kTitleGap + kTickGap;
   for (Panel& p : panels_) {
     double height = p.chart.height;
     if (p.chart.equal_units)
-      height = std::clamp(kFrameWidth * (p.y.high - p.y.low) / (p.x.high - p.x.low), 120.0, 760.0);
-    p.frame = {left, y, kFrameWidth, height};
-    y += height + (p.labels_x ? kTickGap + kText + kTitleGap + kTitle + kEdge : kPanelGap);
-    const LegendBox legend = legend_box(p.chart);
+      height = std::clamp(style.width * (p.y.high - p.y.low) / (p.x.high - p.x.low), 120.0, 760.0);
+    p.frame = {left, y, style.width, height};
+    y += height + (p.labels_x ? kTickGap + font + kTitleGap + title_font + kEdge : kPanelGap);
+    const LegendBox legend = legend_box(p.chart, font);
     if (!free_place({p.frame, p.x, p.y}, p.chart, legend)) {
       beside = std::max(beside, legend.width);
       y = std::max(y, p.frame.y + legend.height + kEdge);
     }
   }
   // half a tick label may stick out at the right end of the x axis
-  size_ = {{left + kFrameWidth + (beside > 0 ? beside + kEdge : 1.6 * kEdge), y}};
+  size_ = {{left + style.width + (beside > 0 ? beside + kEdge : 1.6 * kEdge), y}};
 }
 
 void ChartFigure::draw(Canvas& canvas) const {
+  const double font = style_.text;
   for (std::size_t k = 0; k < panels_.size(); ++k) {
     const Panel& p = panels_[k];
     const ChartFrame frame{p.frame, p.x, p.y};
@@ -162,11 +166,11 @@ void ChartFigure::draw(Canvas& canvas) const {
       canvas.end_group();
     }
     canvas.unclip();
-    draw_axes(canvas, frame, p.labels_x, kEdge + 0.8 * kTitle);
-    const LegendBox legend = legend_box(p.chart);
+    draw_axes(canvas, frame, p.labels_x, kEdge + 0.8 * (font + kTitleLarger), font);
+    const LegendBox legend = legend_box(p.chart, font);
     if (legend.width > 0) {
       const auto corner = free_place(frame, p.chart, legend);
-      draw_legend(canvas, p.chart, corner.value_or(Vec2{{p.frame.right() + 4, p.frame.y - 4}}));
+      draw_legend(canvas, p.chart, corner.value_or(Vec2{{p.frame.right() + 4, p.frame.y - 4}}), font);
     }
     canvas.end_group();
   }

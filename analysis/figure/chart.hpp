@@ -43,11 +43,18 @@ struct Chart {
   bool equal_units = false;     // one unit is as long on both axes
 };
 
+// Sizes that the reader may want otherwise [pt].
+struct ChartStyle {
+  double width = 380;            // of the frames
+  std::optional<double> height;  // of every frame; absent: each chart's own
+  double text = 9.5;             // titles are one larger
+};
+
 // Charts with the same x axis share it when stacked: only the lowest shows its numbers.
 class ChartFigure {
  public:
   // Throws std::invalid_argument for a chart without any value that its axes can show.
-  explicit ChartFigure(std::vector<Chart> charts, bool share_x = false);
+  explicit ChartFigure(std::vector<Chart> charts, bool share_x = false, const ChartStyle& style = {});
   Vec2 size() const { return size_; }  // [pt] of the page
   void draw(Canvas& canvas) const;
 
@@ -59,6 +66,7 @@ class ChartFigure {
     bool labels_x = true;
   };
   std::vector<Panel> panels_;
+  ChartStyle style_;
   Vec2 size_{};
 };
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "dem/input_error.hpp"
+#include "dem/scene/suggestion.hpp"
 
 namespace isostat {
 namespace {
@@ -58,6 +59,27 @@ std::optional<double> number(const std::string& text) {
 const DataColumn* DataTable::find(std::string_view name) const {
   const auto it = std::find_if(columns.begin(), columns.end(), [&](const DataColumn& c) { return c.name == name; });
   return it == columns.end() ? nullptr : &*it;
+}
+
+const DataColumn& column_named(const DataTable& table, const char* option, const std::string& name) {
+  const DataColumn* found = table.find(name);
+  std::vector<std::string> names, ends;
+  for (const DataColumn& c : table.columns) {
+    names.push_back(c.name);
+    if (c.name.ends_with("." + name)) ends.push_back(c.name);
+  }
+  if (!found && ends.size() > 1) {
+    std::string list;
+    for (const std::string& end : ends) list += (list.empty() ? "" : ", ") + end;
+    throw InputError(table.path, 0, option, name, "may mean " + list);
+  }
+  if (!found && ends.size() == 1) found = table.find(ends[0]);
+  if (!found) {
+    const std::string hint = did_you_mean(name, names);
+    throw InputError(table.path, 0, option, name, "no such column; " + (hint.empty() ? "the header lists them" : hint));
+  }
+  if (!found->numeric()) throw InputError(table.path, 0, option, name, "holds no numbers");
+  return *found;
 }
 
 DataTable parse_table(std::string_view text, const std::string& path) {

@@ -20,6 +20,10 @@ struct DataTable {
   const DataColumn* find(std::string_view name) const;  // null if there is none
 };
 
+// The column of that name, or the only one whose name ends in it after a point. Throws InputError for an unknown,
+// ambiguous or non-numeric one; `option` is where the name was given.
+const DataColumn& column_named(const DataTable& table, const char* option, const std::string& name);
+
 // Throws InputError naming lines with another number of fields than the header, or a table without rows.
 DataTable parse_table(std::string_view text, const std::string& path);
 

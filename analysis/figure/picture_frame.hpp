@@ -30,6 +30,8 @@ class PictureFrame {
   // One of several pictures of one scale: on a page for `whole`, which has room for `own`.
   PictureFrame(const Extent& own, const Extent& whole);
 
+  void enlarge(double factor) { scale_ *= factor; }  // before it is placed
+
   void place(const Vec2& top_left) { place_ = top_left + scale_ * inset_; }  // [pt] of the room for the whole
   double scale() const { return scale_; }                                    // [pt per unit length]
   Rect box() const { return {place_[0], place_[1], scale_ * size_[0], scale_ * size_[1]}; }

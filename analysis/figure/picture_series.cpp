@@ -1,6 +1,7 @@
 #include "analysis/figure/picture_series.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "analysis/figure/fading_canvas.hpp"
 #include "analysis/figure/nice_numbers.hpp"
@@ -26,7 +27,7 @@ void add_new(std::vector<LegendItem>& items, std::vector<LegendItem> more) {
 }  // namespace
 
 PictureSeries::PictureSeries(std::vector<std::unique_ptr<PictureSubject>> subjects, const RichText& length_unit,
-                             std::vector<RichText> captions)
+                             std::vector<RichText> captions, std::optional<Vec2> page)
     : subjects_(std::move(subjects)), captions_(std::move(captions)) {
   std::vector<Extent> extents;
   for (const auto& subject : subjects_) extents.push_back(subject->extent());
@@ -34,9 +35,23 @@ PictureSeries::PictureSeries(std::vector<std::unique_ptr<PictureSubject>> subjec
   for (const Extent& e : extents) whole = around(whole, e);
   for (const Extent& e : extents) frames_.emplace_back(e, whole);
 
+  if (page) {
+    lay_out(length_unit, page);  // once to see how high the legend is
+    const double beside = 2 * kMargin, above_and_below = around_;
+    const Vec2 room = frames_[0].room();
+    const double factor = std::min(((*page)[0] - beside) / room[0], ((*page)[1] - above_and_below) / room[1]);
+    if (!(factor > 0)) throw std::invalid_argument("the page has no room beside the legend");
+    for (PictureFrame& frame : frames_) frame.enlarge(factor);
+  }
+  lay_out(length_unit, page);
+}
+
+void PictureSeries::lay_out(const RichText& length_unit, const std::optional<Vec2>& page) {
   const Vec2 room = frames_[0].room();
-  text_ = std::clamp(std::max(room[0], room[1]) / kPagePerText, kSmallestText, kLargestText);
-  const double width = std::max(room[0], kSmallestPage), top = kMargin + (captions_.empty() ? 0 : kCaption * text_);
+  const double longer = page ? std::max((*page)[0], (*page)[1]) : std::max(room[0], room[1]);
+  text_ = std::clamp(longer / kPagePerText, kSmallestText, kLargestText);
+  const double width = page ? (*page)[0] - 2 * kMargin : std::max(room[0], kSmallestPage),
+               top = kMargin + (captions_.empty() ? 0 : kCaption * text_);
   std::vector<LegendItem> items;
   for (std::size_t k = 0; k < subjects_.size(); ++k) {
     frames_[k].place({{kMargin + (width - room[0]) / 2, top}});
@@ -47,6 +62,13 @@ PictureSeries::PictureSeries(std::vector<std::unique_ptr<PictureSubject>> subjec
   legend_.emplace(std::move(items), text_, width);
   legend_place_ = {{kMargin, top + room[1] + 0.5 * text_}};
   page_ = {{width + 2 * kMargin, legend_place_[1] + legend_->height() + 0.5 * kMargin}};
+  around_ = page_[1] - room[1];
+  if (!page) return;
+  const double spare = std::max(0.0, (*page)[1] - page_[1]);  // a wide packing on a high page: in the middle of it
+  for (std::size_t k = 0; k < subjects_.size(); ++k)
+    frames_[k].place({{kMargin + (width - room[0]) / 2, top + 0.5 * spare}});
+  legend_place_[1] += spare;
+  page_ = *page;
 }
 
 void PictureSeries::draw_window(Canvas& canvas, std::size_t k) const {

@@ -5,31 +5,9 @@
 #include <map>
 
 #include "dem/input_error.hpp"
-#include "dem/scene/suggestion.hpp"
 
 namespace isostat {
 namespace {
-
-const DataColumn& column(const DataTable& table, const char* option, const std::string& name) {
-  const DataColumn* found = table.find(name);
-  std::vector<std::string> names, ends;
-  for (const DataColumn& c : table.columns) {
-    names.push_back(c.name);
-    if (c.name.ends_with("." + name)) ends.push_back(c.name);
-  }
-  if (!found && ends.size() > 1) {
-    std::string list;
-    for (const std::string& end : ends) list += (list.empty() ? "" : ", ") + end;
-    throw InputError(table.path, 0, option, name, "may mean " + list);
-  }
-  if (!found && ends.size() == 1) found = table.find(ends[0]);
-  if (!found) {
-    const std::string hint = did_you_mean(name, names);
-    throw InputError(table.path, 0, option, name, "no such column; " + (hint.empty() ? "the header lists them" : hint));
-  }
-  if (!found->numeric()) throw InputError(table.path, 0, option, name, "holds no numbers");
-  return *found;
-}
 
 std::string_view leaf(std::string_view name) { return name.substr(name.rfind('.') + 1); }
 
@@ -50,10 +28,10 @@ std::string label_of(const std::vector<const DataColumn*>& columns, std::size_t 
 
 }  // namespace
 
-Plot study_plot(const DataTable& table, const std::string& x_name, const std::string& y_name) {
+Plot study_plot(const DataTable& table, const std::string& x_name, const std::string& y_name, std::size_t& color) {
   if (table.columns[0].name != "row" || !table.find("runs"))
     throw InputError(table.path, 0, "--what", "study", "is for the study.csv of isostat study");
-  const DataColumn &x = column(table, "--x", x_name), &y = column(table, "--y", y_name);
+  const DataColumn &x = column_named(table, "--x", x_name), &y = column_named(table, "--y", y_name);
   const DataColumn* error = table.find(y.name + "_se");
   if (error && !error->numeric()) error = nullptr;  // one sample a row
 
@@ -83,13 +61,14 @@ Plot study_plot(const DataTable& table, const std::string& x_name, const std::st
   for (std::size_t k = 0; k < order.size(); ++k) {
     std::vector<Point>& points = groups[order[k]];
     std::stable_sort(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.x < b.x; });
-    Curve marks{plain(order[k]), CurveStyle::points, {}, {}, {}, {}, curve_color(k)};
+    const Color paint = curve_color(color++);
+    Curve marks{plain(order[k]), CurveStyle::points, {}, {}, {}, {}, paint};
     for (const Point& p : points) {
       marks.x.push_back(p.x), marks.y.push_back(p.y);
       if (error) marks.error.push_back(std::isfinite(p.error) ? p.error : 0);
     }
     if (against_parameter && points.size() > 1) {
-      Curve line{{}, CurveStyle::line, marks.x, marks.y, {}, {}, blend(curve_color(k), kWhite, 0.45)};
+      Curve line{{}, CurveStyle::line, marks.x, marks.y, {}, {}, blend(paint, kWhite, 0.45)};
       chart.curves.push_back(std::move(line));
     }
     chart.curves.push_back(std::move(marks));

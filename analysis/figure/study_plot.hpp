@@ -10,6 +10,7 @@ namespace isostat {
 // Points of y with their standard error (column Y_se) against x. One curve for each choice of the parameters other than
 // x; one for all rows if x is a result. A column is named in full or by the end of its name after a point. Throws
 // InputError for unknown, ambiguous or non-numeric columns, and where no row has both numbers.
-Plot study_plot(const DataTable& table, const std::string& x, const std::string& y);
+// Colours go on from the given one, which is left after the last.
+Plot study_plot(const DataTable& table, const std::string& x, const std::string& y, std::size_t& color);
 
 }  // namespace isostat

@@ -36,7 +36,20 @@ const std::vector<SeriesPanel>& series_panels() {
   static const std::vector<SeriesPanel> panels = {
       {"Φ", false, {{"Phi", ""}}},
       {"`L` / `a`", false, {{"L1", "`L`_{1}"}, {"L2", "`L`_{2}"}, {"L3", "`L`_{3}"}}},
-      {"stress", false, {{"sigma11", "`σ`_{11}"}, {"sigma22", "`σ`_{22}"}, {"sigma33", "`σ`_{33}"}}},
+      {"stress",
+       false,
+       {{"sigma11", "`σ`_{11}"},
+        {"sigma22", "`σ`_{22}"},
+        {"sigma33", "`σ`_{33}"},
+        {"sigma12", "`σ`_{12}"},
+        {"sigma13", "`σ`_{13}"},
+        {"sigma23", "`σ`_{23}"},
+        {"imposed11", "imposed `σ`_{11}"},
+        {"imposed22", "imposed `σ`_{22}"},
+        {"imposed33", "imposed `σ`_{33}"}}},
+      {"strain of the stage",
+       false,
+       {{"strain1", "direction 1"}, {"strain2", "direction 2"}, {"strain3", "direction 3"}}},
       {"strain rate",
        false,
        {{"strain_rate1", "direction 1"}, {"strain_rate2", "direction 2"}, {"strain_rate3", "direction 3"}}},
@@ -95,6 +108,18 @@ const std::vector<SeriesPanel>& series_panels() {
 
 bool series_applies(const DataTable& t) { return t.columns[0].name == "t" && t.columns[0].numeric(); }
 
+// A static solve takes no time: a jump of the curves between two rows. The rows after one are marked on the first
+// curve.
+void mark_static_solves(const DataTable& table, const DataColumn& time, Chart& chart) {
+  const DataColumn* solves = table.find("static_solves");
+  if (!solves || !solves->numeric() || chart.curves.empty()) return;
+  Curve marks{plain("after a static solve"), CurveStyle::points, {}, {}, {}, {}, curve_color(1)};
+  for (std::size_t r = 1; r < table.rows(); ++r)
+    if (solves->value[r] > solves->value[r - 1])
+      marks.x.push_back(time.value[r]), marks.y.push_back(chart.curves[0].y[r]);
+  if (!marks.x.empty()) chart.curves.push_back(std::move(marks));
+}
+
 Plot series_plot(const DataTable& table) {
   const DataColumn* time = table.find("t");
   if (!time) time = table.find("time");
@@ -109,8 +134,8 @@ Plot series_plot(const DataTable& table) {
   };
   const auto add_curve = [&](Chart& chart, const DataColumn& column, RichText label) {
     if (!(chart.y.log ? has_positive(column.value) : has_finite(column.value))) return;
-    Curve curve{
-        std::move(label), CurveStyle::line, time->value, column.value, {}, {}, curve_color(chart.curves.size())};
+    const CurveStyle style = column.name.starts_with("imposed") ? CurveStyle::dashed : CurveStyle::line;
+    Curve curve{std::move(label), style, time->value, column.value, {}, {}, curve_color(chart.curves.size())};
     chart.curves.push_back(std::move(curve));
   };
   for (const SeriesPanel& panel : series_panels()) {
@@ -121,8 +146,10 @@ Plot series_plot(const DataTable& table) {
         used.emplace_back(name);
         if (column->numeric()) add_curve(chart, *column, rich(label));
       }
+    if (plot.charts.empty()) mark_static_solves(table, *time, chart);
     add_panel(std::move(chart));
   }
+  for (const char* told : {"stage", "static_solves"}) used.emplace_back(told);
   for (const DataColumn& column : table.columns) {
     if (!column.numeric() || std::find(used.begin(), used.end(), column.name) != used.end()) continue;
     Chart chart;

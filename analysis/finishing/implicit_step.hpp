@@ -39,7 +39,21 @@ class ImplicitStep {
   void stop();                                                                     // from here on: at rest
 
   const std::vector<double>& velocity() const { return velocity_; }  // [a/T0] by unknown
-  std::int64_t factorisations() const { return factor_.factorisations(); }
+  std::int64_t factorisations() const { return earlier_ + factor_.factorisations(); }
+
+  // Between two steps, beside the network.
+  template <class Io>
+  void transfer(Io& io) {
+    transfer_reals(io, velocity_);
+    transfer_reals(io, before_);
+    io.real(last_dt_), io.real(dt_before_);
+    std::int64_t done = factorisations();
+    io.whole(done);
+    if constexpr (!Io::writes) {
+      earlier_ = done - factor_.factorisations();
+      SolveReader::require(velocity_.size() == network_.size() && before_.size() == network_.size());
+    }
+  }
 
  private:
   std::vector<double> imbalance(const std::vector<double>& u, double dt, Links links);
@@ -54,6 +68,7 @@ class ImplicitStep {
   std::vector<double> velocity_, before_;
   double last_dt_ = 0, dt_before_ = 0;  // [T0] of the steps that made velocity_ and before_; 0: none
   RepeatedCholesky factor_;
+  std::int64_t earlier_ = 0;  // factorisations before the solve was kept in a state
 };
 
 }  // namespace isostat

@@ -52,6 +52,10 @@ class StepLength {
   void refused() { ceiling_ = 0.5 * dt_, dt_ *= kShrink; }
   void shortened(double dt) { dt_ = dt; }
   bool too_short() const { return dt_ < kShortestStep; }
+  template <class Io>
+  void transfer(Io& io) {
+    io.real(dt_), io.real(ceiling_);
+  }
 
  private:
   static constexpr double kGrow = 4, kShrink = 0.25, kRecover = 1.5;
@@ -80,30 +84,29 @@ class Settling {
   }
 
   FinishingReport run() {
-    StepLength dt(kFirstStep);
-    if (!follow(dt)) return report_;
-    polish(dt);
+    if (!s_.memory.solve.numbers.empty()) go_on();
+    if (polishing_ || follow()) polish();
+    if (!report_.interrupted) s_.memory.solve = {};
     return report_;
   }
 
  private:
   // What the packing still does, inertia and all, until the criteria are met and no drift is left. False: that is
   // where it ends, the report says why.
-  bool follow(StepLength& dt) {
+  bool follow() {
+    StepLength& dt = dt_;
     const EquilibriumScene& t = s_.scene.equilibrium;
     const StepTolerance tolerance{std::max(kStepTolerance * std::min(t.force, t.pressure) * scale_, target_), 0};
-    const double allowed =
-        kFreed * std::max(kinetic(), t.kinetic_energy * scale_) +
-        kCaptures * s_.law.attraction * s_.law.attraction_range / static_cast<double>(network_.grains());
-    double gained = 0;            // [T0] since the last look
-    std::int64_t due = kOnTrial;  // [factorisations] the next one
+    if (!(allowed_ > 0))
+      allowed_ = kFreed * std::max(kinetic(), t.kinetic_energy * scale_) +
+                 kCaptures * s_.law.attraction * s_.law.attraction_range / static_cast<double>(network_.grains());
     while (report_.steps < kMostSteps) {
       if (interrupted()) return give_up("interrupted");
-      if (step_.factorisations() >= due) {
-        const bool worth_it = gained >= kFactorisation * static_cast<double>(kOnTrial) * s_.time_step;
+      if (step_.factorisations() >= due_) {
+        const bool worth_it = gained_ >= kFactorisation * static_cast<double>(kOnTrial) * s_.time_step;
         const char* const why = "the steps are too short to be worth it";
-        if (!worth_it) return due == kOnTrial ? give_up(why) : stuck(why);
-        gained = 0, due = step_.factorisations() + kOnTrial;
+        if (!worth_it) return due_ == kOnTrial ? give_up(why) : stuck(why);
+        gained_ = 0, due_ = step_.factorisations() + kOnTrial;
       }
       const StepOutcome o = take(dt.value(), tolerance, Captures::refuse);
       if (o.capture && dt.value() <= kNearCapture) {
@@ -119,8 +122,8 @@ class Settling {
         if (dt.too_short()) return give_up(std::string("an implicit step failed: ") + o.refused);
         continue;
       }
-      if (kinetic() > allowed) return give_up("the packing sets kinetic energy free");
-      gained += dt.value();
+      if (kinetic() > allowed_) return give_up("the packing sets kinetic energy free");
+      gained_ += dt.value();
       const double drift = network_.largest_displacement(step_.velocity());  // [a] per T0
       dt.accepted(o.iterations <= kEasyIterations,
                   drift > 0 ? std::min(longest_, 0.5 * network_.largest_step() / drift) : longest_);
@@ -134,11 +137,15 @@ class Settling {
   }
 
   // From here on every step starts from rest: what moves, moves because a force drives it.
-  void polish(StepLength& dt) {
+  void polish() {
+    StepLength& dt = dt_;
     const StepTolerance tolerance{0.1 * target_, target_};
-    step_.stop();
-    Vector last(network_.size(), 0.0);
-    for (int k = 0; k < kMostPolishing && !dt.too_short() && !report_.settled; ++k) {
+    if (!polishing_) {
+      polishing_ = true;
+      step_.stop();
+      last_.assign(network_.size(), 0.0);
+    }
+    for (int& k = polished_; k < kMostPolishing && !dt.too_short() && !report_.settled; ++k) {
       report_.settled = residual() <= target_;
       if (report_.settled) break;
       if (interrupted()) {
@@ -151,7 +158,7 @@ class Settling {
         continue;
       }
       report_.settled = o.displacement < kAtRest && dt.value() >= longest_;
-      last = step_.velocity();
+      last_ = step_.velocity();
       step_.stop();
       dt.accepted(true, longest_ * std::clamp(std::exp2(k - kUsualPolishing), 1.0, kLonger));
     }
@@ -159,9 +166,9 @@ class Settling {
       keep();
       return;
     }
-    const double fast = 0.1 * network_.largest_displacement(last);
+    const double fast = 0.1 * network_.largest_displacement(last_);
     for (std::size_t r = 0; r < network_.grains(); ++r)
-      report_.moving += std::hypot(last[3 * r], last[3 * r + 1]) > fast;
+      report_.moving += std::hypot(last_[3 * r], last_[3 * r + 1]) > fast;
     if (report_.moving == 0) report_.moving = static_cast<std::int64_t>(network_.grains());  // the cell carries all
     stuck("floppy or very soft modes still move " + std::to_string(report_.moving) + " grains");
   }
@@ -175,9 +182,39 @@ class Settling {
     return o;
   }
 
+  // The solve stands between two steps: it may be kept in the state here.
   bool interrupted() {
     report_.interrupted = request_.interrupted && request_.interrupted();
+    const bool due = request_.checkpoint_due && request_.checkpoint_due();
+    if (report_.interrupted || due) {
+      SolveWriter io;
+      network_.transfer(io);
+      step_.transfer(io);
+      transfer(io);
+      s_.memory.solve = io.take();
+    }
+    if (due) request_.checkpoint();
     return report_.interrupted;
+  }
+  void go_on() {
+    const SolveMemory memory = std::move(s_.memory.solve);
+    s_.memory.solve = {};
+    SolveReader io(memory);
+    network_.transfer(io);
+    step_.transfer(io);
+    transfer(io);
+    io.end();
+    SolveReader::require(!polishing_ || last_.size() == network_.size());
+  }
+  template <class Io>
+  void transfer(Io& io) {
+    dt_.transfer(io);
+    io.real(gained_), io.real(allowed_);
+    io.whole(due_), io.whole(report_.steps), io.whole(polished_);
+    std::int32_t polishing = polishing_;
+    io.whole(polishing);
+    if constexpr (!Io::writes) polishing_ = polishing != 0;
+    transfer_reals(io, last_);
   }
 
   void keep() {
@@ -239,6 +276,13 @@ class Settling {
   const std::function<void(const SettlingStep&)>& watch_;
   double scale_ = 0, target_ = 0;  // [F0] F1, and the imbalance at rest
   double longest_ = 0;             // [T0]
+  StepLength dt_{kFirstStep};
+  double gained_ = 0;            // [T0] since the last look at whether the steps are worth it
+  std::int64_t due_ = kOnTrial;  // [factorisations] the next one
+  double allowed_ = 0;           // [F0 a] kinetic energy per grain that is no collapse; 0: not known yet
+  bool polishing_ = false;       // from rest
+  int polished_ = 0;             // steps from rest
+  Vector last_;                  // [a/T0] velocities of the last one
   FinishingReport report_;
 };
 

@@ -467,4 +467,37 @@ void SettlingNetwork::store(State<Disks>& state, const std::vector<double>& velo
   state.memory = {};
 }
 
+template <class Network, class Io>
+void SettlingNetwork::transfer_members(Network& n, Io& io) {
+  transfer_vectors(io, n.position_);
+  transfer_vectors(io, n.listed_at_);
+  io.vector(n.length_);
+  io.vector(n.listed_length_);
+  const std::size_t pairs = io.count(n.pairs_);
+  for (std::size_t k = 0; k < pairs; ++k) {
+    auto& p = n.pairs_[k];
+    std::int32_t coupled = p.coupled;
+    io.whole(p.i), io.whole(p.j), io.whole(p.shift[0]), io.whole(p.shift[1]), io.whole(coupled);
+    io.real(p.tangential), io.real(p.moment);
+    if constexpr (!Io::writes) p.coupled = coupled != 0;
+  }
+}
+
+void SettlingNetwork::transfer(SolveWriter& io) const { transfer_members(*this, io); }
+
+void SettlingNetwork::transfer(SolveReader& io) {
+  const std::size_t n = grains();
+  transfer_members(*this, io);
+  SolveReader::require(position_.size() == n && listed_at_.size() == n && length_[0] > 0 && length_[1] > 0 &&
+                       listed_length_[0] > 0 && listed_length_[1] > 0);
+  const auto order = [](const Pair& p) { return std::tie(p.i, p.j, p.shift); };
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    const Pair& p = pairs_[k];
+    SolveReader::require(p.i >= 0 && p.i <= p.j && at(p.j) < n && (k == 0 || order(pairs_[k - 1]) < order(p)));
+  }
+  remember_branches();
+  make_pattern();
+  forces(std::vector<double>(size(), 0.0));
+}
+
 }  // namespace isostat

@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "analysis/finishing/solve_memory.hpp"
 #include "analysis/stiffness/sparse_cholesky.hpp"
 #include "dem/disks/disks.hpp"
 #include "dem/run/finishing.hpp"
@@ -67,6 +68,10 @@ class SettlingNetwork {
   const Vec2& extent() const { return length_; }
   double area() const { return length_[0] * length_[1]; }
 
+  // The accepted configuration with its lists, as dem/disks/disks.hpp keeps it.
+  void transfer(SolveWriter& io) const;
+  void transfer(SolveReader& io);
+
   // Puts the accepted configuration and the given velocities into a state; its memory is emptied.
   void store(State<Disks>& state, const std::vector<double>& velocity) const;
 
@@ -92,6 +97,8 @@ class SettlingNetwork {
 
   Response respond(const Pair& pair, const Vec2& branch, double theta_i, double theta_j, Links links) const;
   Tangent tangent(const Pair& pair, const Response& response, bool symmetric) const;
+  template <class Network, class Io>
+  static void transfer_members(Network& network, Io& io);
   void refresh();
   void remember_branches();
   void couple_active_pairs();

@@ -45,6 +45,10 @@ nlohmann::ordered_json counts_of(const Packing<D>& packing, const ForceReading& 
   json["unloaded_contacts"] = c.unloaded;
   if (c.beams > 0) json["beams"] = c.beams;
   json["rattlers"] = c.rattlers;
+  std::int64_t floating = 0;  // whatever the law: rattlers are defined by it
+  for (std::size_t k = 0; k < c.degree.size(); ++k)
+    floating += c.degree[k] == 0 && !c.held[k] && is_free(packing.part, k);
+  json["floating"] = floating;
   const double phi = solid_fraction(packing.bodies, packing.cell);
   json["solid_fraction"] = phi;
   json["solid_fraction_3d"] = D == 2 ? corresponding_solid_fraction_3d(phi) : phi;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <stdexcept>
 
 #include "analysis/structure/correlation.hpp"
 #include "analysis/structure/fit_json.hpp"
@@ -53,6 +54,15 @@ Json mass_radius(const CorrelationCurve& curve, double low, double high) {
   return json;
 }
 
+CorrelationCurve correlation_of(const AnalysisInput& input, std::vector<double> r) {
+  const auto& packing = input.packing();
+  try {
+    return density_correlation(packing.bodies.position, packing.bodies.radius, *packing.cell, std::move(r));
+  } catch (const std::length_error& error) {
+    throw InputError(input.path, 0, "dacf", "", std::string("the cell is too large for its grains: ") + error.what());
+  }
+}
+
 }  // namespace
 
 ExcessFits excess_fits(const Json& section) {
@@ -98,7 +108,7 @@ Json dacf_section(const AnalysisInput& input, const AnalysisOptions& options) {
   const double diameter = grain_size(input);
   const double shorter = std::min(packing.cell->length[0], packing.cell->length[1]);
   const ExcessFits fits = fits_asked_for(input, options, diameter, shorter);
-  const auto curve = density_correlation(b.position, b.radius, *packing.cell, distances(diameter, shorter / 2));
+  const auto curve = correlation_of(input, distances(diameter, shorter / 2));
   Json json;
   json["r"] = curve.r, json["C"] = curve.c;
   json["solid_fraction"] = curve.solid_fraction;

@@ -23,7 +23,8 @@ class SetMaker {
     if (points * file_.rows.size() > kMostRuns)
       return faults_.add(0, "grid", "", "makes more than " + std::to_string(kMostRuns) + " parameter sets");
     std::set<std::string> names;
-    for (const StudyRow& row : file_.rows)
+    for (const StudyRow& row : file_.rows) {
+      if (row.scene.empty() || row.name.empty()) continue;  // faults of the file
       for (std::size_t point = 0; point < points; ++point) {
         std::string name = row.name;
         std::vector<Setting> settings = row.settings;
@@ -43,15 +44,16 @@ class SetMaker {
         if (!is_safe_name(set.name))
           faults_.add(row.line, "name", quoted_text(set.name), "too long, or no name of a file");
       }
+    }
   }
 
  private:
-  // The part of a name that tells a choice: friction0.15, or the whole key where its last component is not enough.
+  // The part of a name that tells a choice: friction=0.15, or the whole key where its last component is not enough.
   std::string name_part(const GridAxis& axis, std::size_t choice) const {
     const auto leaf = [](const std::string& key) { return key.substr(key.rfind('.') + 1); };
     const auto same = std::count_if(file_.grid.begin(), file_.grid.end(),
                                     [&](const GridAxis& other) { return leaf(other.key) == leaf(axis.key); });
-    std::string text = (same > 1 ? axis.key : leaf(axis.key)) + axis.choices[choice].value;
+    std::string text = (same > 1 ? axis.key : leaf(axis.key)) + "=" + axis.choices[choice].value;
     std::string safe;
     for (const char c : text)
       if (c != '"') safe += kNameLetters.find(c) == std::string_view::npos ? '_' : c;
@@ -98,15 +100,39 @@ class SetMaker {
     try {
       return read_scene(set.scene_path, overrides);
     } catch (const InputError& error) {
-      for (Fault f : error.faults()) {
-        if (f.file == "--set") {
-          f.file = faults_.path();
-          for (const Setting& s : settings)
-            if (s.key == f.key) f.line = s.line;
-        }
-        faults_.add_of_scene(std::move(f), set.name);
+      add(error, set, settings);
+    }
+    if (!std::filesystem::exists(set.scene_path)) check_alone(overrides, set, settings);
+    return std::nullopt;
+  }
+
+  void add(const InputError& error, const ParameterSet& set, const std::vector<Setting>& settings) {
+    for (Fault f : error.faults()) {
+      if (f.file == "--set") {
+        f.file = faults_.path();
+        for (const Setting& s : settings)
+          if (s.key == f.key) f.line = s.line;
       }
-      return std::nullopt;
+      faults_.add_of_scene(std::move(f), set.name);
+    }
+  }
+
+  // Without its scene a setting can still be seen to be no key, or no value of its key; which stages there would be and
+  // of which system the scene is, nobody knows.
+  void check_alone(const std::vector<std::string>& overrides, const ParameterSet& set,
+                   const std::vector<Setting>& settings) {
+    for (std::size_t k = 0; k < overrides.size(); ++k) {
+      if (settings[k].key.starts_with("stage.")) continue;
+      bool sound = false;
+      std::optional<InputError> first;
+      for (const std::string_view system : kSystemNames) try {
+          (void)parse_scene("system = \"" + std::string(system) + "\"\n", set.scene_path, {overrides[k]},
+                            SceneChecks::keys);
+          sound = true;
+        } catch (const InputError& error) {
+          if (!first) first = error;
+        }
+      if (!sound) add(*first, set, settings);
     }
   }
 

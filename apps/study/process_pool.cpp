@@ -11,6 +11,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -75,6 +76,8 @@ std::string one_line(std::string text) {
   try {
     std::thread(listen, stop_pipe).detach();
     code = task(number);
+  } catch (const std::bad_alloc&) {
+    TaskLink::send("error: not enough memory");
   } catch (const std::exception& e) {
     TaskLink::send("error: " + one_line(e.what()));
   }

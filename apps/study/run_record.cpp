@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/report.hpp"
+#include "apps/json_output.hpp"
 #include "dem/disks/physical_hash.hpp"
 #include "dem/files/atomic_file.hpp"
 #include "dem/input_error.hpp"
@@ -71,7 +72,7 @@ void write_record(const RunRecord& r, const std::string& path) {
                      {"solid_fraction", number(r.solid_fraction)},
                      {"z", number(r.z)},
                      {"hash", r.hash}};
-  write_file_atomically(path, json.dump(1) + "\n");
+  write_file_atomically(path, json_text(json, 1));
 }
 
 std::optional<RunRecord> read_record(const std::string& path) {

@@ -7,6 +7,7 @@
 #include "analysis/load_input.hpp"
 #include "analysis/report.hpp"
 #include "analysis/version.hpp"
+#include "apps/json_output.hpp"
 #include "apps/study/state_digest.hpp"
 #include "dem/files/atomic_file.hpp"
 #include "dem/scene/text.hpp"
@@ -76,7 +77,7 @@ void update_report(const std::string& path, const std::string& state_path, const
     if (computed.contains(name) || old.contains(name))
       report[name] = computed.contains(name) ? computed.at(name) : old.at(name);
   }
-  write_file_atomically(path, Json{{"of", key}, {"report", report}}.dump(1) + "\n");
+  write_file_atomically(path, json_text(Json{{"of", key}, {"report", report}}, 1));
 }
 
 }  // namespace isostat

@@ -28,7 +28,7 @@ Study read_study(const std::string& path) {
   Study study;
   study.path = path;
   study.analysis = file.analysis;
-  if (faults.none()) make_parameter_sets(file, study, faults);
+  make_parameter_sets(file, study, faults);
   faults.raise();
   return study;
 }

@@ -12,6 +12,7 @@
 
 #include "analysis/report.hpp"
 #include "dem/files/atomic_file.hpp"
+#include "dem/scene/deep_keys.hpp"
 #include "dem/scene/keys.hpp"
 #include "dem/scene/suggestion.hpp"
 #include "dem/scene/text.hpp"
@@ -39,6 +40,7 @@ class StudyParser {
 
   StudyFile read() {
     const std::string text = read_whole_file(faults_.path());
+    refuse_deep_keys(text, faults_.path());
     try {
       table_ = toml::parse(text, std::string_view(faults_.path()));
     } catch (const toml::parse_error& error) {

@@ -8,6 +8,7 @@
 #include "analysis/ensemble.hpp"
 #include "analysis/report_text.hpp"
 #include "analysis/version.hpp"
+#include "apps/json_output.hpp"
 #include "apps/study/state_report.hpp"
 #include "dem/scene/text.hpp"
 
@@ -166,7 +167,7 @@ TableFiles study_tables(const Study& study, const std::vector<StudyRun>& runs, c
     if (e.report.is_null())
       tables.stale.push_back(path);
     else
-      tables.files.emplace_back(path, e.report.dump(1) + "\n");
+      tables.files.emplace_back(path, json_text(e.report, 1));
     json["rows"].push_back(row_json(e));
   }
   for (std::size_t k = 0; k < runs.size(); ++k) json["runs"].push_back(run_json(runs[k], records[k]));
@@ -175,7 +176,7 @@ TableFiles study_tables(const Study& study, const std::vector<StudyRun>& runs, c
   };
   add("study.csv", study_csv(study, ensembles));
   add("runs.csv", runs_csv(json["runs"]));
-  add("study.json", json.dump(1) + "\n");
+  add("study.json", json_text(json, 1));
   return tables;
 }
 

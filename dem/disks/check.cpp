@@ -61,7 +61,10 @@ void check_grains(const Scene& scene, std::vector<SceneConflict>& found) {
 
 // Contacts must be stiff against the forces of the run, and soft against the rounding of coordinates.
 void check_stiffness(const Scene& scene, std::vector<SceneConflict>& found) {
-  const double stiffness = scene.law.normal_stiffness;
+  std::vector<std::pair<std::string, double>> stiffnesses{{"law.normal_stiffness", scene.law.normal_stiffness}};
+  for (std::size_t i = 0; i < scene.stages.size(); ++i)
+    if (const auto& k = scene.stages[i].normal_stiffness)
+      stiffnesses.emplace_back(stage_key(i, "normal_stiffness"), *k);
   const bool random = scene.grains.file.empty() && !is_collision(scene);
   double largest = scene.law.attraction, smallest = std::numeric_limits<double>::infinity();
   std::vector<std::string> involved{"law.normal_stiffness", "law.attraction", "grains.diameter_min", "gravity"};
@@ -72,24 +75,30 @@ void check_stiffness(const Scene& scene, std::vector<SceneConflict>& found) {
     for (const char* key : {"pressure", "pressures", "stress_1", "stress_2"}) involved.push_back(stage_key(i, key));
   }
   const double diameter = smallest_diameter(scene);
-  if (largest > kLargestOverlap * diameter * stiffness)
-    found.push_back({"law.normal_stiffness", real_text(stiffness),
-                     "too soft: the force scale F1 = max(F0, a P, weight of a grain) = " + real_text(largest) +
-                         " would overlap contacts by more than " + real_text(kLargestOverlap) +
-                         " of the smallest diameter; at least " + real_text(largest / (kLargestOverlap * diameter)),
-                     involved});
+  for (const auto& [key, stiffness] : stiffnesses)
+    if (largest > kLargestOverlap * diameter * stiffness) {
+      involved.front() = key;
+      found.push_back({key, real_text(stiffness),
+                       "too soft: the force scale F1 = max(F0, a P, weight of a grain) = " + real_text(largest) +
+                           " would overlap contacts by more than " + real_text(kLargestOverlap) +
+                           " of the smallest diameter; at least " + real_text(largest / (kLargestOverlap * diameter)),
+                       involved});
+    }
   // A gap is a difference of coordinates up to L, rounded to eps L; times K_N it must stay below the force tolerance.
   if (!random || smallest == std::numeric_limits<double>::infinity()) return;
   const double rounding = std::numeric_limits<double>::epsilon() * longest_edge(scene);
   const double stiffest = scene.equilibrium.force * smallest / rounding;
-  if (stiffness > stiffest) {
-    involved.insert(involved.end(), {"equilibrium.force", "grains.count", "grains.diameter_max",
-                                     "grains.solid_fraction", "cell.aspect"});
-    found.push_back({"law.normal_stiffness", real_text(stiffness),
-                     "too stiff: the rounding of the coordinates alone makes forces above equilibrium.force; at most " +
-                         real_text(stiffest),
-                     involved});
-  }
+  involved.insert(involved.end(),
+                  {"equilibrium.force", "grains.count", "grains.diameter_max", "grains.solid_fraction", "cell.aspect"});
+  for (const auto& [key, stiffness] : stiffnesses)
+    if (stiffness > stiffest) {
+      involved.front() = key;
+      found.push_back(
+          {key, real_text(stiffness),
+           "too stiff: the rounding of the coordinates alone makes forces above equilibrium.force; at most " +
+               real_text(stiffest),
+           involved});
+    }
 }
 
 void check_step(const Scene& scene, std::vector<SceneConflict>& found) {

@@ -18,6 +18,12 @@ struct DiskHistory {
   friend bool operator==(const DiskHistory&, const DiskHistory&) = default;
 };
 
+// A static solve under way (analysis/finishing/solve_memory.hpp); empty: none.
+struct SolveMemory {
+  std::vector<double> numbers;
+  std::vector<std::int32_t> indices;
+};
+
 // What a restart needs beside the packing: leapfrog half-step velocities, the total forces at `time`, lists and
 // histories.
 struct DiskMemory {
@@ -28,6 +34,7 @@ struct DiskMemory {
   std::vector<PairMemory<DiskHistory>> pairs;  // any order
   ListMemory<2> lists;
   std::vector<Vec2> wall_position;  // [a] of walls and lids, in storage order, where they were built
+  SolveMemory solve;                // in a state kept within a static solve
 };
 
 class DiskEngine;

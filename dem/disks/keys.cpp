@@ -123,7 +123,7 @@ std::vector<SceneKey> disk_keys() {
 
           {.name = "step.fraction",
            .field = in<&S::step, &StepScene::fraction>,
-           .range = positive,
+           .range = from(kLeastStepFraction, kInfinity),
            .meaning =
                "c of the time step dt = c sqrt(m_max / K_N). 0.06 is the reference, 0.10 to 0.12 production; above "
                "0.16 packings are noisy; a step beyond the stability bound of the smallest grain is refused."},

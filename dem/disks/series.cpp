@@ -7,6 +7,7 @@
 #include "dem/disks/energy.hpp"
 #include "dem/disks/outflow.hpp"
 #include "dem/run/container_series.hpp"
+#include "dem/run/stage_series.hpp"
 #include "dem/state/balance.hpp"
 #include "dem/state/clusters.hpp"
 #include "dem/state/container_motion.hpp"
@@ -48,6 +49,7 @@ std::vector<SeriesColumn> series_columns(const State<Disks>& s, bool with_energi
   const auto add = [&columns](std::initializer_list<SeriesColumn> more) {
     columns.insert(columns.end(), more.begin(), more.end());
   };
+  std::array<double, 1> shear{};
   if (p.cell) {
     const StressTensor stress = measured_stress(p);
     add({{"Phi", solid_fraction(p.bodies, p.cell)},
@@ -57,7 +59,9 @@ std::vector<SeriesColumn> series_columns(const State<Disks>& s, bool with_energi
          {"sigma22", stress.yy},
          {"strain_rate1", s.cell_motion.strain_rate[0]},
          {"strain_rate2", s.cell_motion.strain_rate[1]}});
+    shear[0] = 0.5 * (stress.xy + stress.yx);
   }
+  add_stage_columns(columns, s, shear);
   add({{"kinetic_energy", e.kinetic},
        {"z", static_cast<double>(interaction_ends(s)) / static_cast<double>(std::max<std::size_t>(count_free(p), 1))},
        {"clusters", static_cast<double>(count_clusters(p))},

@@ -28,11 +28,16 @@ void transfer_packing(Io& io, Packing<2>& packing) {
 
 template <class Io>
 void transfer_memory(Io& io, DiskMemory& memory) {
-  auto& [half_velocity, half_spin, force, torque, pairs, lists, wall_position] = memory;
+  auto& [half_velocity, half_spin, force, torque, pairs, lists, wall_position, solve] = memory;
   transfer_half_steps(io, half_velocity, half_spin, force, torque);
   if (io.since(4)) transfer_memory_array(io, "wall_position", wall_position, "a");
   transfer_springs(io, pairs);
   transfer_lists(io, lists, "a");
+  bool solving = !solve.numbers.empty();
+  io.flag_if_any("/progress", "solving", solving);
+  if (!solving) return;
+  io.array("/solve/numbers", solve.numbers, io.count("/solve/numbers", solve.numbers.size()), "");
+  io.array("/solve/indices", solve.indices, io.count("/solve/indices", solve.indices.size()), "");
 }
 
 template <class Io>

@@ -9,6 +9,7 @@
 #include "dem/files/network_lines.hpp"
 #include "dem/input_error.hpp"
 #include "dem/state/beam.hpp"
+#include "dem/state/lengths.hpp"
 #include "dem/state/link_ends.hpp"
 #include "dem/state/touching.hpp"
 
@@ -44,9 +45,8 @@ class NetworkParser {
       is_beam ? beam(at, fields) : contact(at, fields);
     }
     if (file_.packing.bodies.size() == 0 && faults_.empty()) fault(0, "grain", "", "the file has no grain line");
-    if (!file_.links_given && faults_.empty() && !cell_fits(file_.packing))
-      fault(cell_line_, "cell", "", "an edge is below 0.1 of the largest radius: check the units");
     if (!faults_.empty()) throw InputError(std::move(faults_));
+    require_lengths(file_.packing.cell, file_.packing.bodies, path_, gap_tolerance, cell_line_);
 
     set_masses();
     if (!file_.links_given)

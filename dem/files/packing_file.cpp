@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
 #include "dem/files/atomic_file.hpp"
 #include "dem/files/formats/csv.hpp"
@@ -11,8 +10,10 @@
 #include "dem/files/formats/text_table.hpp"
 #include "dem/files/network_file.hpp"
 #include "dem/files/state_file.hpp"
+#include "dem/files/state_seal.hpp"
 #include "dem/input_error.hpp"
 #include "dem/state/beam.hpp"
+#include "dem/state/lengths.hpp"
 #include "dem/state/link_ends.hpp"
 #include "dem/state/state_check.hpp"
 #include "dem/state/touching.hpp"
@@ -66,8 +67,6 @@ void check_cell(const Packing<D>& packing, const std::string& path) {
       if (!(std::abs(packing.bodies.position[i][k]) <= kMostImages * packing.cell->length[k]))
         throw InputError(path, 0, "grain", std::to_string(packing.bodies.id[i]),
                          "lies more than 1e8 cells away from the cell");
-  if (!cell_fits(packing))
-    throw InputError(path, 0, "cell", "", "an edge is below 0.1 of the largest radius: check the units");
 }
 
 template <int D>
@@ -83,6 +82,7 @@ void read_network_into(PackingFile& file, const std::string& path, const Packing
   set_box(network.packing, path, reading);
   if (reading.box && isolated) {
     check_cell(network.packing, path);
+    require_lengths(network.packing.cell, network.packing.bodies, path, reading.gap_tolerance);
     // The file was read as isolated: with its cell the nearest images are meant, and more grains may touch.
     for (Link<D>& link : network.packing.links) {
       const auto i = static_cast<std::size_t>(link.i), j = static_cast<std::size_t>(link.j);
@@ -127,6 +127,7 @@ void read_tables_into(PackingFile& file, const TextTable& grains, const std::opt
   if (own_box) packing.cell = cell_of<D>(*own_box);
   set_box(packing, grains.path, reading);
   check_cell(packing, grains.path);
+  require_lengths(packing.cell, packing.bodies, grains.path, reading.gap_tolerance);
   file.links_given = links.has_value();
   if (links)
     packing.links = read_links<D>(*links, packing);
@@ -177,23 +178,12 @@ std::string existing_path(const std::string& path) {
   return path;
 }
 
-std::string first_bytes(const std::string& path) {
-  std::error_code ignored;
-  std::ifstream in(path, std::ios::binary);
-  if (!in || std::filesystem::is_directory(path, ignored))
-    throw InputError(path, 0, "", "", "cannot be read; give an existing file");
-  std::string bytes(4096, '\0');
-  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<std::size_t>(in.gcount()));
-  return bytes;
-}
-
 }  // namespace
 
 PackingFormat sniff_packing_format(const std::string& path) {
-  const std::string bytes = first_bytes(existing_path(path));
+  const std::string bytes = first_bytes(existing_path(path), 4096);
   // Also other HDF5 files, damaged states and whatever is called .h5: the reader of states says what is wrong.
-  if (is_state_file(existing_path(path)) || bytes.starts_with("\x89HDF\r\n\x1a\n") || path.ends_with(".h5"))
+  if (begins_like_state(bytes) || bytes.starts_with("\x89HDF\r\n\x1a\n") || path.ends_with(".h5"))
     return PackingFormat::state;
   const bool is_text = bytes.find('\0') == std::string::npos;
   for (std::size_t at = 0; is_text && at < bytes.size();) {
@@ -223,7 +213,12 @@ PackingFile read_packing(const std::string& given_path, const PackingReading& re
   switch (file.format) {
     case PackingFormat::state:
       if (reading.box) throw InputError(path, 0, "--box", "", "a state has its own cell; leave --box out");
-      std::visit([&](auto&& state) { take(file, std::move(state)); }, read_state(path));
+      std::visit(
+          [&](auto&& state) {
+            require_lengths(state.packing.cell, state.packing.bodies, path, reading.gap_tolerance);
+            take(file, std::move(state));
+          },
+          read_state(path));
       file.links_given = true;
       break;
     case PackingFormat::network:

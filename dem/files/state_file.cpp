@@ -1,6 +1,6 @@
 #include "dem/files/state_file.hpp"
 
-#include <fstream>
+#include <filesystem>
 #include <span>
 #include <stdexcept>
 
@@ -122,11 +122,9 @@ State<System> read_state(const std::string& path) {
 }
 
 bool is_state_file(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::string head(kSealBytes, '\0');
-  in.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(in.gcount()));
-  return begins_like_state(head);
+  std::error_code ignored;
+  return std::filesystem::exists(path, ignored) && !std::filesystem::is_directory(path, ignored) &&
+         begins_like_state(first_bytes(path, kSealBytes));
 }
 
 template std::string encode_state(const State<Disks>&, Provenance);

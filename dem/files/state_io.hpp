@@ -105,6 +105,15 @@ class StateWriter {
   void value(const std::string& group, const std::string& name, const std::optional<double>& x) {
     if (x) put(group, name, *x);
   }
+  void text_if_any(const std::string& group, const std::string& name, const std::string& text) {
+    if (!text.empty()) value(group, name, text);
+  }
+  void count_if_any(const std::string& group, const std::string& name, std::int64_t n) {
+    if (n != 0) value(group, name, n);
+  }
+  void flag_if_any(const std::string& group, const std::string& name, bool flag) {
+    if (flag) value(group, name, flag);
+  }
   template <class Enum, std::size_t N>
   void choice(const std::string& group, const std::string& name, Enum e, const std::array<std::string_view, N>& names) {
     value(group, name, std::string(names[static_cast<std::size_t>(e)]));
@@ -198,6 +207,15 @@ class StateReader {
   }
   void value(const std::string& group, const std::string& name, std::optional<double>& x) {
     if (file_.has_attribute(group, name)) x = file_.attribute<double>(group, name);
+  }
+  void text_if_any(const std::string& group, const std::string& name, std::string& text) {
+    if (file_.has_attribute(group, name)) text = file_.text_attribute(group, name);
+  }
+  void count_if_any(const std::string& group, const std::string& name, std::int64_t& n) {
+    if (file_.has_attribute(group, name)) value(group, name, n);
+  }
+  void flag_if_any(const std::string& group, const std::string& name, bool& flag) {
+    flag = file_.has_attribute(group, name);
   }
   template <class Enum, std::size_t N>
   void choice(const std::string& group, const std::string& name, Enum& e,

@@ -12,7 +12,7 @@ namespace isostat {
 template <class Io, int D>
 void transfer_progress(Io& io, StageProgress<D>& progress) {
   auto& [stage, start_time, started, drag_on, quiet_since, contact_set, unchanged_since, start_stiffness, start_stress,
-         peak_stress, drifting] = progress;
+         peak_stress, drifting, solves, unmet] = progress;
   io.value("/progress", "stage", stage);
   io.value("/progress", "start_time", start_time);
   io.value("/progress", "started", started);
@@ -24,6 +24,8 @@ void transfer_progress(Io& io, StageProgress<D>& progress) {
   io.value("/progress", "start_stress", start_stress);
   io.value("/progress", "peak_stress", peak_stress);
   io.value("/progress", "drifting", drifting);
+  io.count_if_any("/progress", "solves", solves);
+  io.text_if_any("/progress", "unmet", unmet);
 }
 
 template <class Io>

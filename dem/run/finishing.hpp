@@ -18,13 +18,15 @@ struct FinishingRequest {
   double cell_inertia = 1;              // M of Gilabert 2007, Eq. 3 [m]
   double drag = 0;                      // [1/T0] of a global drag on what still moves
   bool drift_only = false;              // clusters still fly towards each other: on to the next capture, never to rest
-  std::function<bool()> interrupted{};  // asked before every implicit step; true: give up at once, the state as it was
+  std::function<bool()> interrupted{};  // asked before every implicit step; true: give up at once
+  std::function<bool()> checkpoint_due{};  // asked then, too; true: `checkpoint` is called with the solve in the state
+  std::function<void()> checkpoint{};
 };
 
 struct FinishingReport {
   bool settled = false;             // the state is at rest in equilibrium
   bool advanced = false;            // the state has drifted on, at most to just before a capture
-  bool interrupted = false;         // given up on request
+  bool interrupted = false;         // given up on request; the state holds the solve, and the same call goes on with it
   bool capture = false;             // a pair is about to come within reach: for the dynamics to follow
   bool stuck = false;               // implicit steps gain nothing here for now: the dynamics is the better way on
   int steps = 0;                    // accepted implicit steps

@@ -51,11 +51,17 @@ class Observers {
     if (hooks_.progress)
       hooks_.progress(
           {s.progress.stage, s.time, solid_fraction(s.packing), worst_criterion(s.certificate), &s.certificate});
-    if (hooks_.checkpoint && hooks_.checkpoint_seconds > 0 &&
-        wall_seconds() - last_checkpoint_ > hooks_.checkpoint_seconds) {
-      hooks_.checkpoint(s);
-      last_checkpoint_ = wall_seconds();
-    }
+    if (checkpoint_due()) checkpoint(s);
+  }
+
+  // Also at the end of a stage, and within a static solve.
+  bool checkpoint_due() const {
+    return hooks_.checkpoint && hooks_.checkpoint_seconds > 0 &&
+           wall_seconds() - last_checkpoint_ > hooks_.checkpoint_seconds;
+  }
+  void checkpoint(const State<System>& s) {
+    hooks_.checkpoint(s);
+    last_checkpoint_ = wall_seconds();
   }
 
  private:

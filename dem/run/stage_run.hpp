@@ -126,7 +126,12 @@ class StageRun {
     end_.follow_peak();
     const std::string until(name(stage_.until));
     const bool waits = waits_for_equilibrium(stage_.until);
-    StageOutcome outcome{s_.progress.stage, true, s_.time, until, waits ? s_.certificate.moving : 0};
+    StageOutcome outcome{s_.progress.stage,
+                         true,
+                         s_.time,
+                         until,
+                         waits ? s_.certificate.moving : 0,
+                         waits && s_.packing.links.size() == s_.packing.beams.size()};
     if (end_.met()) return outcome;
     outcome.met = false;
     const std::string unit = " " + std::string(time_unit(s_.scene.system)) + ": ";
@@ -162,12 +167,14 @@ class StageRun {
     const bool flying = policy_.still_flying();
     const double drag = policy_.rings() && !flying ? s_.scene.finish.drag : 0.0;
     const FinishingReport report =
-        finisher_->settle(s_, {control.stress, control.inertia, drag, flying, hooks_.interrupted});
+        finisher_->settle(s_, {control.stress, control.inertia, drag, flying, hooks_.interrupted,
+                               [this] { return observers_.checkpoint_due(); }, [this] { observers_.checkpoint(s_); }});
     if (report.interrupted) {
-      interrupted_ = true;  // nothing has changed: a resumed run begins the same solve
+      interrupted_ = true;  // a resumed run comes here again, and goes on within the solve
       return;
     }
     if (report.settled || report.advanced) {
+      ++s_.progress.solves;
       begin_again();
       s_.certificate.finishing = "newton";
     }

@@ -42,6 +42,7 @@ struct StageOutcome {
   double time = 0;          // [T0] at the end
   std::string reason;       // what ended it, or what is missing and the key to turn
   std::int64_t moving = 0;  // an equilibrium by its means, in which so many grains still move (Certificate::moving)
+  bool nothing_touches = false;  // an equilibrium of grains that fly
 };
 
 struct RunOutcome {

@@ -28,11 +28,13 @@ RunOutcome run_stages(State<System>& state, const SolverOptions& options, const 
     outcome.interrupted = !stage;
     if (outcome.interrupted) break;
     outcome.stages.push_back(*stage);
+    if (!stage->met) state.progress.add_unmet("stage " + std::to_string(stage->stage) + ": " + stage->reason);
     bring_forward(state.surroundings, state.scene.stages[static_cast<std::size_t>(state.progress.stage)].container,
                   state.time - state.progress.start_time);
     ++state.progress.stage;
     state.progress.started = false;
     if (hooks.stage_end) hooks.stage_end(state);
+    if (observers.checkpoint_due() && state.progress.stage < stages) observers.checkpoint(state);
     if (hooks.max_time > 0 && state.time >= hooks.max_time) break;
   }
   outcome.steps = state.step - first_step;

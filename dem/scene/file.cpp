@@ -10,6 +10,7 @@
 #include "dem/files/atomic_file.hpp"
 #include "dem/input_error.hpp"
 #include "dem/scene/check.hpp"
+#include "dem/scene/deep_keys.hpp"
 #include "dem/scene/keys.hpp"
 #include "dem/scene/suggestion.hpp"
 #include "dem/scene/text.hpp"
@@ -69,7 +70,7 @@ class Parser {
   Parser(std::string name) : name_(std::move(name)) {}
 
   void read(std::string_view text) {
-    refuse_deep_keys(text);
+    refuse_deep_keys(text, name_);
     try {
       tables_.push_back(toml::parse(text, std::string_view(name_)));
     } catch (const toml::parse_error& error) {
@@ -134,18 +135,9 @@ class Parser {
   void fault(const std::string& file, int line, const std::string& key, const std::string& value,
              const std::string& rule) {
     faults_.push_back({file, line, key, value, rule});
-  }
-
-  // toml++ nests one table for each component of a dotted key and unwinds them by recursion: a key of a hundred
-  // thousand components would exhaust the stack. A line with few dots has no such key.
-  void refuse_deep_keys(std::string_view text) const {
-    constexpr int kMostDots = 2000;
-    int line = 1, dots = 0;
-    for (const char c : text) {
-      if (c == '\n') ++line, dots = 0;
-      if (c == '.' && ++dots > kMostDots)
-        throw InputError(name_, line, "", "", "at most " + std::to_string(kMostDots) + " points in a line; break it");
-    }
+    if (faults_.size() < kMostFaults) return;
+    faults_.push_back({name_, 0, "", "", "more faults are not listed"});
+    throw InputError(std::move(faults_));
   }
 
   void flatten(const toml::table& table, const std::string& parent) {
@@ -335,6 +327,8 @@ class Parser {
       fault(g ? g->file : name_, g ? g->line : 0, conflict.key, conflict.value, conflict.rule);
     }
   }
+
+  static constexpr std::size_t kMostFaults = 100;
 
   std::string name_;
   std::deque<toml::table> tables_;  // nodes stay where they are

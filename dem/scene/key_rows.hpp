@@ -38,6 +38,7 @@ std::vector<std::string_view> names(const std::array<std::string_view, N>& choic
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr SceneRange positive{0, kInfinity, true, false};
 inline constexpr SceneRange not_negative{0, kInfinity, false, false};
+inline constexpr double kLeastStepFraction = 1e-6;  // a shorter step only makes a run that never comes anywhere
 constexpr SceneRange from(double low, double high) { return {low, high, false, false}; }
 
 inline const std::string& grains_file(const Scene& s) {

@@ -284,7 +284,7 @@ std::vector<SceneKey> law_keys() {
        .meaning = "D0: the attraction falls linearly to zero at this gap."},
       {.name = "step.fraction",
        .field = in<&S::step, &StepScene::fraction>,
-       .range = positive,
+       .range = from(kLeastStepFraction, kInfinity),
        .meaning = "c of the time step dt = c sqrt(m / k) of the smallest grain, k the normal stiffness of its contact "
                   "with another as small; Hertz: at an overlap of a tenth of its radius. Beyond the stability bound it "
                   "is refused."},

@@ -1,7 +1,9 @@
 #include "dem/spheres/series.hpp"
 
 #include <algorithm>
+#include <array>
 
+#include "dem/run/stage_series.hpp"
 #include "dem/spheres/certificate.hpp"
 #include "dem/state/clusters.hpp"
 #include "dem/state/solid_fraction.hpp"
@@ -24,8 +26,12 @@ std::vector<SeriesColumn> series_columns(const State<Spheres>& s, bool) {
   const auto add = [&columns](std::initializer_list<SeriesColumn> more) {
     columns.insert(columns.end(), more.begin(), more.end());
   };
+  std::array<double, 3> shear{};
   if (p.cell) {
-    const Vec3 stress = diagonal(measured_stress(p)), rate = s.cell_motion.strain_rate;
+    const StressTensor3 tensor = measured_stress(p);
+    const Vec3 stress = diagonal(tensor), rate = s.cell_motion.strain_rate;
+    const auto mean = [&](std::size_t a, std::size_t b) { return 0.5 * (tensor[a][b] + tensor[b][a]); };
+    shear = {mean(0, 1), mean(0, 2), mean(1, 2)};
     add({{"Phi", solid_fraction(p.bodies, p.cell)},
          {"L1", p.cell->length[0]},
          {"L2", p.cell->length[1]},
@@ -37,6 +43,7 @@ std::vector<SeriesColumn> series_columns(const State<Spheres>& s, bool) {
          {"strain_rate2", rate[1]},
          {"strain_rate3", rate[2]}});
   }
+  add_stage_columns(columns, s, shear);
   const auto grains = static_cast<double>(std::max<std::size_t>(p.bodies.size(), 1));
   const std::size_t interactions = s.law.attraction > 0 ? p.links.size() : loaded_contacts(s);
   add({{"kinetic_energy", kinetic_energy(p.bodies)},

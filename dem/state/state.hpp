@@ -42,6 +42,10 @@ struct StageProgress {
   Vec<D> start_stress{};          // [F0/a] static stress sigma_11, sigma_22(, sigma_33) when the stage began
   double peak_stress = 0;         // [F0/a] largest change of the stress of a driven direction so far
   bool drifting = false;          // static solves have silenced the vibrations, but not what floppy modes still do
+  std::int64_t solves = 0;        // static solves of the run so far that have moved the packing, in no time
+  std::string unmet;              // of every stage so far that did not meet its end, why; empty: all did
+
+  void add_unmet(const std::string& why) { unmet += (unmet.empty() ? "" : "; ") + why; }
 };
 
 // Where the container stands and what has left it.

@@ -106,17 +106,6 @@ template void find_contacts(Packing<2>&, double);
 template void find_contacts(Packing<3>&, double);
 template std::vector<Link<2>> touching_links(const Packing<2>&, double);
 template std::vector<Link<3>> touching_links(const Packing<3>&, double);
-template <int D>
-bool cell_fits(const Packing<D>& packing) {
-  if (!packing.cell || packing.bodies.size() == 0) return true;
-  const double largest = *std::max_element(packing.bodies.radius.begin(), packing.bodies.radius.end());
-  for (int k = 0; k < D; ++k)
-    if (packing.cell->length[k] < kSmallestCell * largest) return false;
-  return true;
-}
-
-template bool cell_fits(const Packing<2>&);
-template bool cell_fits(const Packing<3>&);
 template double default_gap_tolerance(const Bodies<2>&);
 template double default_gap_tolerance(const Bodies<3>&);
 

@@ -22,10 +22,4 @@ inline constexpr double kTouchingTolerance = 1e-9;
 template <int D>
 double default_gap_tolerance(const Bodies<D>& bodies);
 
-// A cell with an edge below this many largest radii is no packing but a mistake of units: every grain would touch its
-// own image dozens of times over. Readers of files refuse it before they look for contacts.
-inline constexpr double kSmallestCell = 0.1;
-template <int D>
-bool cell_fits(const Packing<D>& packing);
-
 }  // namespace isostat

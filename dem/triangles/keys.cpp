@@ -173,7 +173,7 @@ std::vector<SceneKey> law_rows() {
                   "order, as in the paper, a quarter of the step."},
       {.name = "step.fraction",
        .field = in<&S::step, &StepScene::fraction>,
-       .range = positive,
+       .range = from(kLeastStepFraction, kInfinity),
        .meaning = "c of the time step dt = c / omega, with omega the largest frequency of the smallest grain of each "
                   "shape (`isostat lab grain`). 0.6 is production, 0.2 the reference; a step beyond the stability "
                   "bound is refused."},

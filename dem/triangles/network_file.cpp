@@ -12,6 +12,7 @@
 #include "dem/files/network_lines.hpp"
 #include "dem/input_error.hpp"
 #include "dem/state/beam.hpp"
+#include "dem/state/lengths.hpp"
 #include "dem/state/touching.hpp"
 #include "dem/triangles/network_law.hpp"
 #include "dem/triangles/overlap_at_rest.hpp"
@@ -145,12 +146,9 @@ class TriangleParser {
     }
     p.grains.begin.push_back(static_cast<std::int32_t>(line_.size()));
     set_grain_radii();
-    if (!p.cell || !faults_.empty()) return;
-    const double largest = *std::max_element(p.bodies.radius.begin(), p.bodies.radius.end());
-    for (int k = 0; k < 2; ++k)
-      if (p.cell->length[k] < kSmallestCell * largest)
-        fault(cell_line_, "cell.L" + std::to_string(k + 1), "",
-              "is below 0.1 of the largest triangle: check the units");
+    if (!faults_.empty()) return;
+    require_lengths(p.cell, p.bodies, path_, std::nullopt, cell_line_);
+    if (!p.cell) return;
     for (std::size_t b = 0; b < p.bodies.size(); ++b)
       for (int k = 0; k < 2; ++k)
         if (std::abs(p.bodies.position[b][k]) > 1e8 * p.cell->length[k])

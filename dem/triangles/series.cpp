@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dem/run/container_series.hpp"
+#include "dem/run/stage_series.hpp"
 #include "dem/state/container_motion.hpp"
 #include "dem/triangles/at_rest.hpp"
 #include "dem/triangles/certificate.hpp"
@@ -42,6 +43,7 @@ std::vector<SeriesColumn> series_columns(const State<TriangleGrains>& s, bool wi
   const auto add = [&columns](std::initializer_list<SeriesColumn> more) {
     columns.insert(columns.end(), more.begin(), more.end());
   };
+  std::array<double, 1> shear{};
   if (p.cell) {
     const StressTensor stress = measured_stress(s);
     add({{"Phi", solid_fraction(p, p.cell)},
@@ -51,7 +53,9 @@ std::vector<SeriesColumn> series_columns(const State<TriangleGrains>& s, bool wi
          {"sigma22", stress.yy},
          {"strain_rate1", s.cell_motion.strain_rate[0]},
          {"strain_rate2", s.cell_motion.strain_rate[1]}});
+    shear[0] = 0.5 * (stress.xy + stress.yx);
   }
+  add_stage_columns(columns, s, shear);
   const auto free = static_cast<double>(count_free(p));
   add({{"kinetic_energy", e.kinetic},
        {"z", 2 * static_cast<double>(p.overlaps.size()) / free},

@@ -9,6 +9,7 @@
 
 #include "analysis/load_input.hpp"
 #include "analysis/report.hpp"
+#include "analysis/report_units.hpp"
 #include "dem/files/atomic_file.hpp"
 #include "dem/files/packing_file.hpp"
 #include "dem/input_error.hpp"
@@ -212,6 +213,25 @@ TEST(Report, KnowsTheLawOfAState) {
   EXPECT_EQ(input.network_law(options), NetworkLaw::rolling);
   input.state.law = {};
   EXPECT_EQ(input.network_law({}), NetworkLaw::friction);
+}
+
+// The text report's units are those of the page: of a cohesive state, of beams in cgs.
+TEST(ReportDoc, UnitsAreThoseOfThePage) {
+  const Json reduced{{"system", "reduced"}, {"length", "a"}, {"force", "F0"}, {"pressure", "F0/a"}, {"time", "T0"}};
+  const Json cgs{{"system", "cgs"}, {"length", "cm"}, {"force", "dyn"}, {"pressure", "dyn/cm"}, {"time", "s"}};
+  std::istringstream text(page("report.md"));
+  const std::regex row(R"(^\| `([a-z]+\.[A-Za-z0-9_.]+)` \|.*\| ([^|]*) \|$)");
+  std::smatch match;
+  std::size_t with_unit = 0;
+  for (std::string line; std::getline(text, line);) {
+    if (!std::regex_match(line, match, row)) continue;
+    const std::string key = match[1], told = match[2];
+    if (told.starts_with("as ") || told.empty() || told.find("](") != std::string::npos) continue;
+    EXPECT_EQ(unit_of(key, key.starts_with("beams") ? cgs : reduced), told == "-" ? "" : told) << key;
+    with_unit += told != "-";
+  }
+  EXPECT_GE(with_unit, 35u);
+  EXPECT_EQ(unit_of("stress.pressure", Json{{"system", "of the input file"}}), "");
 }
 
 }  // namespace

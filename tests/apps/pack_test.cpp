@@ -129,7 +129,7 @@ TEST_F(Pack, InterruptedRunsResumeToTheSameBits) {
 
   for (const int signal : {SIGINT, SIGTERM}) {
     const std::size_t rows = signal == SIGINT ? 3 : 60;
-    const std::string again = signal == SIGINT ? "" : " --resume";
+    const std::string again = signal == SIGINT ? " --force" : " --resume";
     const int code = interrupted(pack("cut.h5", more + again), "series.csv", rows, signal);
     ASSERT_EQ(code, 130) << content(in_folder("stderr"));
     EXPECT_THAT(content(in_folder("stderr")), HasSubstr("--resume"));

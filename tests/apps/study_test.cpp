@@ -61,7 +61,8 @@ name = "no"
   EXPECT_THAT(o.err, HasSubstr("12 runs: 12 ok"));
   const DataTable t = table("out/study.csv"), runs = table("out/runs.csv");
   ASSERT_EQ(t.rows(), 4u);
-  EXPECT_THAT(t.columns[0].text, ElementsAre("rr-friction0.15", "rr-friction0.5", "no-friction0.15", "no-friction0.5"));
+  EXPECT_THAT(t.columns[0].text,
+              ElementsAre("rr-friction=0.15", "rr-friction=0.5", "no-friction=0.15", "no-friction=0.5"));
   EXPECT_THAT(t.find("law.rolling")->text, ElementsAre("true", "true", "false", "false"));
   EXPECT_THAT(t.find("law.friction")->value, ElementsAre(0.15, 0.5, 0.15, 0.5));
   EXPECT_THAT(t.find("n")->value, ElementsAre(3, 3, 3, 3));
@@ -78,10 +79,10 @@ name = "no"
   }
   // The same as `analyze` of the row's states, and each state the one of `pack`.
   ASSERT_EQ(
-      run("analyze " + in_folder("out/no-friction0.5.*.h5") + " --only counts,forces --json " + in_folder("a.json"))
+      run("analyze " + in_folder("out/no-friction=0.5.*.h5") + " --only counts,forces --json " + in_folder("a.json"))
           .code,
       0);
-  json analyzed = json::parse(text("a.json")), report = json::parse(text("out/no-friction0.5.report.json"));
+  json analyzed = json::parse(text("a.json")), report = json::parse(text("out/no-friction=0.5.report.json"));
   analyzed.erase("inputs"), report.erase("inputs");
   EXPECT_EQ(analyzed, report);
   EXPECT_EQ(at(t, "counts.z", 3), report["counts"]["z"]["mean"]);
@@ -89,7 +90,7 @@ name = "no"
                 in_folder("p.h5"))
                 .code,
             0);
-  EXPECT_EQ(text("p.h5"), text("out/no-friction0.5.0002.h5"));
+  EXPECT_EQ(text("p.h5"), text("out/no-friction=0.5.0002.h5"));
 
   const json all = json::parse(text("out/study.json"));
   EXPECT_EQ(all["rows"][3]["scalars"]["counts.z"], report["counts"]["z"]);
@@ -233,7 +234,7 @@ TEST_F(Study, AnotherSceneInTheFolderIsRefusedOrRunAfresh) {
   EXPECT_EQ(at(table("out/study.csv"), "law.friction", 0), 0.3);
   // One state of pack is as good as one of our own.
   write("study.toml", base);
-  ASSERT_EQ(run("pack " + in_folder("scene.toml") + " --seed 1 -o " + in_folder("out/scene.0001.h5")).code, 0);
+  ASSERT_EQ(run("pack " + in_folder("scene.toml") + " --seed 1 --force -o " + in_folder("out/scene.0001.h5")).code, 0);
   ASSERT_EQ(run(study("out", "--fresh")).code, 0);
   EXPECT_EQ(text("out/study.csv").size(), before.at("study.csv").first.size());
   EXPECT_EQ(text("out/scene.report.json"), before.at("scene.report.json").first);
@@ -265,6 +266,16 @@ law.friction = 3
                            "study.toml:4: stages", "study.toml:6: seed", "study.toml:8: analysis.cel",
                            "study.toml:9: name: missing", "study.toml:10: nam", "study.toml:12: grid.law.friction"})
     EXPECT_THAT(own.err, HasSubstr(said));
+
+  // Of the file, of the scene that is not there, and of settings: still all at once.
+  write("study.toml",
+        "scene = \"none.toml\"\nseeds = 0\nanalyse = [\"counts\"]\n[set]\nlaw.fricton = 0.1\nlaw.damping = -1\n");
+  const Outcome mixed = run(study("out"));
+  EXPECT_EQ(mixed.code, 2);
+  for (const char* said : {"study.toml:2: seeds = 0", "study.toml:3: analyse: unknown key; did you mean analyze?",
+                           "study.toml:5: law.fricton = 0.1: unknown key; did you mean law.friction?",
+                           "study.toml:6: law.damping = -1", "none.toml: cannot be read"})
+    EXPECT_THAT(mixed.err, HasSubstr(said));
 
   write("study.toml", R"(scene = "scene.toml"
 seeds = 2

@@ -48,6 +48,8 @@ max_strain_rate = 0.05
 def pack(program, scene, output, *settings):
     """CPU seconds; exit code 3 is a result: no equilibrium within stage.max_time."""
     words = [word for s in settings for word in ("--set", s)]
+    if os.path.exists(output):
+        os.unlink(output)  # of another scene: pack would ask for --force
     process = subprocess.Popen([program, "pack", scene, "-o", output, *words], stdout=subprocess.DEVNULL,
                                stderr=subprocess.DEVNULL)
     _, status, usage = os.wait4(process.pid, 0)

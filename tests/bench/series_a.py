@@ -19,7 +19,7 @@ READINGS = ("cell.inertia=0.3", 'stage.0.velocity_of="vector"', "stage.2.max_edg
 
 
 def cpu_seconds(program, rolling, seed, folder):
-    command = [program, "pack", SCENE, "-o", f"{folder}/state.h5", "--set", f"seed={seed}", "--set",
+    command = [program, "pack", SCENE, "-o", f"{folder}/state-{rolling}-{seed}.h5", "--set", f"seed={seed}", "--set",
                f"law.rolling={rolling}", *(word for r in READINGS for word in ("--set", r))]
     process = subprocess.Popen(command, stderr=subprocess.DEVNULL)
     _, status, usage = os.wait4(process.pid, 0)

@@ -88,7 +88,7 @@ def memory(program, directory, cell, grains):
         out.write('[law]\nnormal_stiffness = 1e4\n[[stage]]\nvelocity = 1\nuntil = "time"\ntime = 0.02\n')
     commands = {"lab throughput, dense state, plain text": lambda k: ["lab", "throughput", tiled(directory, cell, grains, k),
                                                                       "--steps", "20"],
-                "pack, gas, state file": lambda k: ["pack", scene, "-o", os.path.join(directory, "gas.h5"), "--set",
+                "pack, gas, state file": lambda k: ["pack", scene, "-o", os.path.join(directory, f"gas{k}.h5"), "--set",
                                                     f"grains.count={len(grains) * k * k}"]}
     small, large = 8, 16
     rows = []

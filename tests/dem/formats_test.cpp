@@ -257,7 +257,7 @@ TEST(PackingFile, CellOfOtherUnitsIsRefused) {
   EXPECT_THAT(faults_of(dir / "g.csv", reading), HasSubstr("below 0.1 of the largest radius"));
   reading.box = {1, 0.11};
   EXPECT_EQ(faults_of(dir / "g.csv", reading), "accepted");
-  EXPECT_THAT(faults_of(dir / "g.net"), HasSubstr("g.net:1: cell: an edge is below 0.1 of the largest radius"));
+  EXPECT_THAT(faults_of(dir / "g.net"), HasSubstr("g.net:1: cell.L1 = 0.0001: an edge is below 0.1 of the largest radius"));
   write_files_atomically({{dir / "g.csv", "id,x,y,r\n1,1e9,0,1\n"}});
   EXPECT_THAT(faults_of(dir / "g.csv", reading), HasSubstr("1e8 cells away"));
 }
@@ -269,10 +269,10 @@ TEST(PackingFile, LengthsBeyondTheNumbersAreRefused) {
     write_files_atomically({{dir / name, text}});
     return faults_of(dir / name);
   };
-  EXPECT_THAT(faults("g.csv", "id,x,y,r\n1,0,0,1e-200\n2,1,0,1e-201\n"), HasSubstr("inertia"));
-  EXPECT_THAT(faults("g.csv", "id,x,y,z,r\n1,0,0,1,1e-200\n"), HasSubstr("inertia"));
+  EXPECT_THAT(faults("g.csv", "id,x,y,r\n1,0,0,1e-200\n2,1,0,1e-201\n"), HasSubstr("radius = 1e-200: of the largest grain"));
+  EXPECT_THAT(faults("g.csv", "id,x,y,z,r\n1,0,0,1,1e-200\n"), HasSubstr("radius = 1e-200: of the largest grain"));
   EXPECT_THAT(faults("g.csv", "id,x,y,r\n1,0,0,1e300\n2,1,0,1e-300\n"), HasSubstr("check the units"));
-  EXPECT_THAT(faults("g.net", "cell 1e-150 1e-150\ngrain 1 0 0 1e-200\n"), HasSubstr("inertia"));
+  EXPECT_THAT(faults("g.net", "cell 1e-150 1e-150\ngrain 1 0 0 1e-200\n"), HasSubstr("radius = 1e-200: of the largest grain"));
   const auto box = [](const std::string& edge) {
     return "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n" + edge + "\n0 9\n0 9\n" +
            "ITEM: ATOMS id x y radius\n5 1 1 1\n";

@@ -14,6 +14,7 @@ skipped=()
 hash_of() {  # INSTRUCTION_SET ARGUMENTS...: of the state that this run ends in
   local isa=$1 code=0
   shift
+  rm -f "$work/state.h5"
   ISOSTAT_ISA=$isa "$program" pack "${@/SERIES/$work/series.csv}" -o "$work/state.h5" 2> "$work/said" || code=$?
   ((code == 0 || code == 3)) || { cat "$work/said" >&2; return 1; }
   "$program" info "$work/state.h5" | sed -n 's/.*"hash": "\([0-9a-f]*\)".*/\1/p'

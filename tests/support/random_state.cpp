@@ -86,8 +86,12 @@ State<Disks> random_state(std::uint64_t seed, int grains, int links) {
   for (StageScene& stage : s.scene.stages) stage.pressure = d.positive(), stage.velocity = d.positive();
   s.scene.law.friction = d.positive(), s.scene.output.series = "a \"quoted\"\nname";
   s.scene.seed = d.word() >> 1;
-  s.progress = {d.integer(0, static_cast<int>(s.scene.stages.size())), d.real(), d.coin(), d.coin(), d.real()};
+  s.progress.stage = d.integer(0, static_cast<int>(s.scene.stages.size()));
+  s.progress.start_time = d.real(), s.progress.started = d.coin();
+  s.progress.drag_on = d.coin(), s.progress.quiet_since = d.real();
   s.progress.drifting = d.coin();
+  s.progress.solves = d.integer(0, 3);
+  if (d.coin()) s.progress.add_unmet("stage 0: stopped");
   if (d.coin()) s.surroundings = {d.vec(), d.real(), d.coin(), d.integer(0, 9), d.positive(), d.real()};
   s.ledger = {d.real(), d.real(), d.real(), d.real(), d.real(), d.real(), d.real(), d.real()};
   Certificate& c = s.certificate;
@@ -167,6 +171,8 @@ void expect_equal(const State<Disks>& a, const State<Disks>& b) {
   EXPECT_SAME(progress.start_stress);
   EXPECT_SAME(progress.peak_stress);
   EXPECT_SAME(progress.drifting);
+  EXPECT_SAME(progress.solves);
+  EXPECT_SAME(progress.unmet);
   EXPECT_EQ(a.surroundings, b.surroundings);
   EXPECT_SAME(ledger.viscous);
   EXPECT_SAME(ledger.sliding);

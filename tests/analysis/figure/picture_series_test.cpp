@@ -5,6 +5,7 @@
 
 #include <regex>
 #include <set>
+#include <stdexcept>
 
 #include "analysis/figure/film_canvas.hpp"
 #include "tests/support/recording_canvas.hpp"
@@ -158,6 +159,29 @@ TEST(FilmCanvas, UsesAGroupAgain) {
   EXPECT_EQ(count(text, "<g id=\"walls"), 2u);
   EXPECT_EQ(count(text, "<use href=\"#walls\"/>"), 1u);
   EXPECT_LT(text.find("<use"), text.find("x=\"11\""));
+}
+
+// A page that was asked for: that size to the point, whatever the packing, and everything on it.
+TEST(PictureSeries, PagesOfAGivenSize) {
+  for (const Vec2& wanted : {Vec2{{500, 400}}, Vec2{{300, 900}}})
+    for (const Packing<2>& packing :
+         {disk_at({{30, 0}}), disk_at({{0, 5}}), disk_at({{1, 1}}, PeriodicCell<2>{{{4, 9}}})}) {
+      std::vector<std::unique_ptr<PictureSubject>> subjects;
+      subjects.push_back(std::make_unique<DiskSubject>(packing, grains_content()));
+      const PictureSeries series(std::move(subjects), {}, {}, wanted);
+      EXPECT_EQ(series.page(), wanted);
+      const RecordingCanvas canvas = page(series, 0);
+      ASSERT_GE(canvas.drawn_disks.size(), 2u);
+      if (packing.cell) continue;  // images are cut off
+      for (const auto& disk : canvas.drawn_disks)
+        for (int k = 0; k < 2; ++k) {
+          EXPECT_GE(disk.mark.center[k] - disk.mark.radius, 0);
+          EXPECT_LE(disk.mark.center[k] + disk.mark.radius, wanted[k]);
+        }
+    }
+  std::vector<std::unique_ptr<PictureSubject>> subjects;
+  subjects.push_back(std::make_unique<DiskSubject>(disk_at({{1, 0}}), grains_content()));
+  EXPECT_THROW(PictureSeries(std::move(subjects), {}, {}, Vec2{{300, 20}}), std::invalid_argument);
 }
 
 }  // namespace

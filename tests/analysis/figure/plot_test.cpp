@@ -1,5 +1,6 @@
 // From result files to charts.
 #include "analysis/figure/plot.hpp"
+#include "analysis/figure/column_plot.hpp"
 
 #include <gtest/gtest.h>
 
@@ -348,6 +349,34 @@ TEST(SeriesPlot, OnePanelAQuantity) {
   EXPECT_TRUE(plot.charts[2].y.log);
   EXPECT_EQ(plot.charts[3].y.title, plain("mine"));
   EXPECT_THROW(table_plot("series").make(parse_table("a,b\n1,2\n", "s.csv")), InputError);
+}
+
+TEST(SeriesPlot, SaysWhereStaticSolvesJumpedAndWhatIsImposed) {
+  const Plot plot = table_plot("series").make(parse_table(
+      "t,Phi,sigma11,imposed11,stage,static_solves\n0,.3,1,nan,0,0\n1,.4,1,2,1,2\n2,.41,2,2,1,2\n", "s.csv"));
+  ASSERT_EQ(plot.charts.size(), 2u) << "stage and static_solves have no panel";
+  ASSERT_EQ(plot.charts[0].curves.size(), 2u);
+  EXPECT_EQ(plot.charts[0].curves[1].x, std::vector<double>{1});
+  EXPECT_EQ(plot.charts[0].curves[1].y, std::vector<double>{.4});
+  ASSERT_EQ(plot.charts[1].curves.size(), 2u);
+  EXPECT_EQ(plot.charts[1].curves[1].style, CurveStyle::dashed);
+}
+
+TEST(ColumnPlot, AnyColumnsOfAnyTables) {
+  const std::vector<DataTable> tables{
+      parse_table("t,kinetic_energy,Phi,z,z_se\n0,1,.3,1,.1\n1,1,.4,3,\n2,1,.35,,.2\n", "d/up.csv"),
+      parse_table("Phi,x.z\n.5,4\n", "down.csv")};
+  const Plot plot = column_plot(tables, "Phi", {"z"});
+  ASSERT_EQ(plot.charts.size(), 1u);
+  const auto& curves = plot.charts[0].curves;  // a line and points a table
+  ASSERT_EQ(curves.size(), 4u);
+  EXPECT_EQ(curves[1].x, (std::vector<double>{.3, .4})) << "in the order of the file; no row without a number";
+  EXPECT_EQ(curves[1].error, (std::vector<double>{.1, 0}));
+  EXPECT_EQ(curves[1].label, plain("up"));
+  EXPECT_EQ(curves[3].y, std::vector<double>{4}) << "a name's end is enough";
+  EXPECT_EQ(plot.charts[0].x.title, rich("Φ")) << "columns of a series have symbols";
+  EXPECT_THROW(column_plot(tables, "t", {"z"}), InputError) << "the second has no t";
+  EXPECT_THROW(column_plot({tables[0]}, "Phi", {"nope"}), InputError);
 }
 
 TEST(BenchPlot, ErrorAgainstStepAndTimeByLabel) {

@@ -343,8 +343,7 @@ TEST(NewtonFinishing, AnInterruptedRunGoesOnAsIfItHadNotBeen) {
   for (bool done = false; !done && interruptions < 1000;) {
     int polls = 0;
     RunHooks<Disks> hooks;
-    // More patient each time: an interrupted solve is begun anew.
-    hooks.interrupted = [&] { return ++polls > 3 + interruptions / 4; };
+    hooks.interrupted = [&] { return ++polls > 3; };  // never long enough for a whole solve
     done = !run_stages(s, {}, hooks, &resumed).interrupted;
     if (!done) s = std::get<State<Disks>>(decode_state(encode_state(s), "memory").state), ++interruptions;
   }
@@ -353,6 +352,29 @@ TEST(NewtonFinishing, AnInterruptedRunGoesOnAsIfItHadNotBeen) {
   resumed.times.erase(std::unique(resumed.times.begin(), resumed.times.end()), resumed.times.end());
   EXPECT_EQ(resumed.times, finisher.times);
   EXPECT_EQ(physical_hash(s), physical_hash(straight));
+}
+
+// A checkpoint is due at every implicit step: from any of those that were written, also within a solve, the run goes on
+// to the same bits. A kill costs one step.
+TEST(NewtonFinishing, GoesOnFromACheckpointWithinASolve) {
+  Scene scene = scene_of(Finish::newton);
+  State<Disks> straight = initial_disks(scene, 6);
+  NewtonFinishing finisher;
+  std::vector<std::string> kept;
+  RunHooks<Disks> hooks;
+  hooks.checkpoint_seconds = 1e-9;
+  hooks.checkpoint = [&](const State<Disks>& s) {
+    if (!s.memory.solve.numbers.empty()) kept.push_back(encode_state(s));
+  };
+  ASSERT_TRUE(run_stages(straight, {}, hooks, &finisher).all_met());
+  EXPECT_TRUE(straight.memory.solve.numbers.empty());
+  EXPECT_GT(straight.progress.solves, 0);
+  ASSERT_GE(kept.size(), 3u) << "implicit steps of the scene's solves";
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    State<Disks> s = std::get<State<Disks>>(decode_state(kept[k], "memory").state);
+    ASSERT_TRUE(run_stages(s, {}, {}, &finisher).all_met());
+    EXPECT_EQ(physical_hash(s), physical_hash(straight)) << "checkpoint " << k << " of " << kept.size();
+  }
 }
 
 }  // namespace

@@ -106,6 +106,8 @@ def run_lammps(law, cell, grains, directory, skin, limit, finish, fraction):
 
 def run_isostat(program, law, count, seed, directory, finish, fraction):
     state, timings = os.path.join(directory, "packed.h5"), os.path.join(directory, "timings.json")
+    if os.path.exists(state):
+        os.unlink(state)  # of another scene: pack would ask for --force
     command = [program, "pack", os.path.join(ROOT, "data/scenes/disks-method1-cohesionless.toml"), "-o", state,
                "--seed", str(seed), "--threads", "1", "--timings", timings, "--set", f"grains.count={count}",
                "--set", f"law.rolling={str(law == 'rolling').lower()}", "--set", "cell.inertia=0.3",

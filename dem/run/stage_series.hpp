@@ -1,0 +1,37 @@
+// Columns of the time series that every system has: where the run stands, what the stage imposes, how far it has come.
+#pragma once
+#include <array>
+#include <limits>
+#include <string_view>
+#include <vector>
+
+#include "dem/run/series.hpp"
+#include "dem/state/state.hpp"
+
+namespace isostat {
+
+// `off_diagonal`: with a cell sigma_12(, sigma_13, sigma_23), mean of both halves. Strains are those that
+// until = "strain" looks at, 1 - L / L0 of the stage, compression positive; a stress that is not imposed is not a
+// number.
+template <class System, std::size_t N>
+void add_stage_columns(std::vector<SeriesColumn>& columns, const State<System>& s,
+                       const std::array<double, N>& off_diagonal) {
+  static constexpr std::array<std::string_view, 3> kShear{"sigma12", "sigma13", "sigma23"},
+      kStrain{"strain1", "strain2", "strain3"}, kImposed{"imposed11", "imposed22", "imposed33"};
+  columns.push_back({"stage", static_cast<double>(s.progress.stage)});
+  if (s.packing.cell) {
+    for (std::size_t k = 0; k < N; ++k) columns.push_back({kShear[k], off_diagonal[k]});
+    for (int a = 0; a < System::dimension; ++a) {
+      const double before = s.cell_motion.reference_length[a];
+      columns.push_back(
+          {kStrain[static_cast<std::size_t>(a)], before > 0 ? 1 - s.packing.cell->length[a] / before : 0});
+    }
+    for (int a = 0; a < System::dimension; ++a) {
+      const auto u = static_cast<std::size_t>(a);
+      columns.push_back({kImposed[u], s.imposed_stress[u].value_or(std::numeric_limits<double>::quiet_NaN())});
+    }
+  }
+  columns.push_back({"static_solves", static_cast<double>(s.progress.solves)});
+}
+
+}  // namespace isostat
