@@ -11,7 +11,7 @@ A row such as A+A-5600 pools the samples of both: the paper does not distinguish
 samples. `gap` is (ours - paper) over the root of the sum of squares of our standard error and of the paper's printed error,
 which is a standard deviation in Tables II and III (`sd`, Sec. III.A) and not said to be one or the other elsewhere; `words`:
 a sentence without an error. `before`: the gap in gilabert2007_before.csv, with the readings that study_choices.csv keeps,
-whose number stands where a study has not been run. Doubtful numbers (`copy`: those that Table III has twice) are left out of chi^2.
+whose number stands where a study has not been run. Numbers that Table III has twice, and once by a slip, are left out of chi^2 (`slip`).
 """
 import csv
 import json
