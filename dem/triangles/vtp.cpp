@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "dem/files/formats/vtk_appended.hpp"
+#include "dem/files/formats/vtk_arrays.hpp"
 #include "dem/triangles/at_rest.hpp"
 
 namespace isostat {
@@ -55,17 +55,15 @@ std::string vtk_polydata(const TrianglePacking& p, double time) {
       spin.push_back(p.bodies.spin[k]);
     }
   }
-  VtkAppended data;
-  const std::string head = data.polydata_head(time);
-  const std::string xml = head + "<Piece NumberOfPoints=\"" + std::to_string(3 * n) +
-                          "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
-                          std::to_string(n) + "\">\n<CellData Scalars=\"pressure\" Vectors=\"velocity\">\n" +
-                          data.array("id", id) + data.array("grain", grain) + data.array("part", part) +
-                          data.array("pressure", pressure) + data.array("velocity", velocity, 3) +
-                          data.array("spin", spin) + "</CellData>\n<Points>\n" + data.array("Points", points, 3) +
-                          "</Points>\n<Polys>\n" + data.array("connectivity", connectivity) +
-                          data.array("offsets", ends) + "</Polys>\n";
-  return xml + data.polydata_tail();
+  const std::string head = vtk_polydata_head(time);
+  std::string xml = head + "<Piece NumberOfPoints=\"" + std::to_string(3 * n) +
+                    "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
+                    std::to_string(n) + "\">\n<CellData Scalars=\"pressure\" Vectors=\"velocity\">\n" +
+                    vtk_array("id", id) + vtk_array("grain", grain) + vtk_array("part", part) +
+                    vtk_array("pressure", pressure) + vtk_array("velocity", velocity, 3) + vtk_array("spin", spin) +
+                    "</CellData>\n<Points>\n" + vtk_array("Points", points, 3) + "</Points>\n<Polys>\n" +
+                    vtk_array("connectivity", connectivity) + vtk_array("offsets", ends) + "</Polys>\n";
+  return xml.append(kVtkPolydataTail);
 }
 
 }  // namespace isostat

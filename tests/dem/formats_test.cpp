@@ -257,7 +257,8 @@ TEST(PackingFile, CellOfOtherUnitsIsRefused) {
   EXPECT_THAT(faults_of(dir / "g.csv", reading), HasSubstr("below 0.1 of the largest radius"));
   reading.box = {1, 0.11};
   EXPECT_EQ(faults_of(dir / "g.csv", reading), "accepted");
-  EXPECT_THAT(faults_of(dir / "g.net"), HasSubstr("g.net:1: cell.L1 = 0.0001: an edge is below 0.1 of the largest radius"));
+  EXPECT_THAT(faults_of(dir / "g.net"),
+              HasSubstr("g.net:1: cell.L1 = 0.0001: an edge is below 0.1 of the largest radius"));
   write_files_atomically({{dir / "g.csv", "id,x,y,r\n1,1e9,0,1\n"}});
   EXPECT_THAT(faults_of(dir / "g.csv", reading), HasSubstr("1e8 cells away"));
 }
@@ -269,10 +270,12 @@ TEST(PackingFile, LengthsBeyondTheNumbersAreRefused) {
     write_files_atomically({{dir / name, text}});
     return faults_of(dir / name);
   };
-  EXPECT_THAT(faults("g.csv", "id,x,y,r\n1,0,0,1e-200\n2,1,0,1e-201\n"), HasSubstr("radius = 1e-200: of the largest grain"));
+  EXPECT_THAT(faults("g.csv", "id,x,y,r\n1,0,0,1e-200\n2,1,0,1e-201\n"),
+              HasSubstr("radius = 1e-200: of the largest grain"));
   EXPECT_THAT(faults("g.csv", "id,x,y,z,r\n1,0,0,1,1e-200\n"), HasSubstr("radius = 1e-200: of the largest grain"));
   EXPECT_THAT(faults("g.csv", "id,x,y,r\n1,0,0,1e300\n2,1,0,1e-300\n"), HasSubstr("check the units"));
-  EXPECT_THAT(faults("g.net", "cell 1e-150 1e-150\ngrain 1 0 0 1e-200\n"), HasSubstr("radius = 1e-200: of the largest grain"));
+  EXPECT_THAT(faults("g.net", "cell 1e-150 1e-150\ngrain 1 0 0 1e-200\n"),
+              HasSubstr("radius = 1e-200: of the largest grain"));
   const auto box = [](const std::string& edge) {
     return "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n" + edge + "\n0 9\n0 9\n" +
            "ITEM: ATOMS id x y radius\n5 1 1 1\n";
@@ -346,7 +349,7 @@ TEST(Xyz, HasLatticeAndOneRowAGrain) {
   std::getline(in, line);
   EXPECT_EQ(line, "3");
   std::getline(in, line);
-  EXPECT_THAT(line, HasSubstr("pbc=\"T T F\" Time=1.5 Properties=species:S:1:id:I:1:pos:R:3:radius:R:1:velo:R:3:"));
+  EXPECT_THAT(line, HasSubstr("pbc=\"T T F\" Time=1.5 Properties=species:S:1:pos:R:3:id:I:1:radius:R:1:velo:R:3:"));
   double l1 = 0, l2 = 0, zero = 0;
   ASSERT_EQ(std::sscanf(line.c_str(), "Lattice=\"%lf %lf %lf %lf %lf", &l1, &zero, &zero, &zero, &l2), 5);
   EXPECT_EQ(l1, p.cell->length[0]);
@@ -355,7 +358,7 @@ TEST(Xyz, HasLatticeAndOneRowAGrain) {
     std::string species;
     long long id = 0;
     double x = 0, y = 0, z = 1, r = 0;
-    ASSERT_TRUE(in >> species >> id >> x >> y >> z >> r);
+    ASSERT_TRUE(in >> species >> x >> y >> z >> id >> r);
     EXPECT_EQ(id, p.bodies.id[k]);
     EXPECT_EQ((Vec2{{x, y}}), p.bodies.position[k]);
     EXPECT_EQ(z, 0);
@@ -367,13 +370,13 @@ TEST(Xyz, HasLatticeAndOneRowAGrain) {
 TEST(Vtp, LinesHaveTheLengthAndDirectionOfTheirBranches) {
   const Packing<2> p = with_kinds(oracle::random_packing(8, 12, 40, true));
   const std::string vtp = vtk_polydata(p, 2.5);
-  const auto place = vtk_array<double>(vtp, "Points");
-  const auto line = vtk_array<std::int64_t>(vtp, "connectivity", "<Lines>");
-  const auto ends = vtk_array<std::int64_t>(vtp, "offsets", "<Lines>");
-  const auto vertex = vtk_array<std::int64_t>(vtp, "connectivity", "<Verts>");
-  const auto force = vtk_array<double>(vtp, "N"), radius = vtk_array<double>(vtp, "radius");
-  const auto kind = vtk_array<std::int8_t>(vtp, "kind");
-  EXPECT_EQ(vtk_array<double>(vtp, "TimeValue", "<FieldData>"), (std::vector<double>{2.5}));
+  const auto place = oracle::vtk_array<double>(vtp, "Points");
+  const auto line = oracle::vtk_array<std::int64_t>(vtp, "connectivity", "<Lines>");
+  const auto ends = oracle::vtk_array<std::int64_t>(vtp, "offsets", "<Lines>");
+  const auto vertex = oracle::vtk_array<std::int64_t>(vtp, "connectivity", "<Verts>");
+  const auto force = oracle::vtk_array<double>(vtp, "N"), radius = oracle::vtk_array<double>(vtp, "radius");
+  const auto kind = oracle::vtk_array<std::int8_t>(vtp, "kind");
+  EXPECT_EQ(oracle::vtk_array<double>(vtp, "TimeValue", "<FieldData>"), (std::vector<double>{2.5}));
   ASSERT_EQ(vertex.size(), 12u);
   ASSERT_EQ(line.size(), 80u);
   ASSERT_EQ(force.size(), 52u);

@@ -140,7 +140,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"[law]\nrolling_friction = -1\n" + kStage, "law.rolling_friction", ">= 0"},
         Case{"[law]\nattraction_range = 0\n" + kStage, "law.attraction_range", "> 0"},
         Case{"[step]\nfraction = 0.3\n" + kStage, "step.fraction", "unstable"},
-        Case{"[step]\nfraction = 0\n" + kStage, "step.fraction", "> 0"},
+        Case{"[step]\nfraction = 0\n" + kStage, "step.fraction", ">= 1e-06"},
         Case{"[finish]\nmethod = \"magic\"\n" + kStage, "finish.method", "one of \"none\" \"drag\""},
         Case{"[law]\nfrictoin = 1\n" + kStage, "law.frictoin", "did you mean law.friction?"},
         Case{"[laww]\nfriction = 1\n" + kStage, "laww.friction", "did you mean law.friction?"},

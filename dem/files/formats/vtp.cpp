@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "dem/files/formats/vtk_appended.hpp"
+#include "dem/files/formats/vtk_arrays.hpp"
 #include "dem/state/link_ends.hpp"
 
 namespace isostat {
@@ -85,24 +85,23 @@ std::string vtk_polydata(const Packing<D>& packing, double time, const VtkExtras
     cells.add(static_cast<std::int8_t>(link.kind), link);
   }
 
-  VtkAppended data;
-  const std::string head = data.polydata_head(time);
+  const std::string head = vtk_polydata_head(time);
   const std::string counts = "<Piece NumberOfPoints=\"" + std::to_string(points.id.size()) + "\" NumberOfVerts=\"" +
                              std::to_string(b.size()) + "\" NumberOfLines=\"" + std::to_string(line_ends.size()) +
                              "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n";
   constexpr int vector_size = D == 2 ? 1 : 3;
-  const std::string xml =
-      head + counts + "<PointData Scalars=\"radius\" Vectors=\"velocity\">\n" + data.array("id", points.id) +
-      data.array("radius", points.radius) + data.array("mass", points.mass) +
-      data.array("velocity", points.velocity, 3) + data.array("spin", points.spin, 3) +
-      data.array("image", points.image) + (extras.group.empty() ? std::string() : data.array("group", points.group)) +
-      "</PointData>\n<CellData Scalars=\"N\">\n" + data.array("kind", cells.kind) + data.array("gap", cells.gap) +
-      data.array("N", cells.normal) + data.array("T", cells.tangential, vector_size) +
-      data.array("M", cells.moment, vector_size) + data.array("F", cells.total) + "</CellData>\n<Points>\n" +
-      data.array("Points", points.position, 3) + "</Points>\n<Verts>\n" + data.array("connectivity", vertices) +
-      data.array("offsets", vertex_ends) + "</Verts>\n<Lines>\n" + data.array("connectivity", lines) +
-      data.array("offsets", line_ends) + "</Lines>\n";
-  return xml + data.polydata_tail();
+  std::string xml =
+      head + counts + "<PointData Scalars=\"radius\" Vectors=\"velocity\">\n" + vtk_array("id", points.id) +
+      vtk_array("radius", points.radius) + vtk_array("mass", points.mass) + vtk_array("velocity", points.velocity, 3) +
+      vtk_array("spin", points.spin, 3) + vtk_array("image", points.image) +
+      (extras.group.empty() ? std::string() : vtk_array("group", points.group)) +
+      "</PointData>\n<CellData Scalars=\"N\">\n" + vtk_array("kind", cells.kind) + vtk_array("gap", cells.gap) +
+      vtk_array("N", cells.normal) + vtk_array("T", cells.tangential, vector_size) +
+      vtk_array("M", cells.moment, vector_size) + vtk_array("F", cells.total) + "</CellData>\n<Points>\n" +
+      vtk_array("Points", points.position, 3) + "</Points>\n<Verts>\n" + vtk_array("connectivity", vertices) +
+      vtk_array("offsets", vertex_ends) + "</Verts>\n<Lines>\n" + vtk_array("connectivity", lines) +
+      vtk_array("offsets", line_ends) + "</Lines>\n";
+  return xml.append(kVtkPolydataTail);
 }
 
 template std::string vtk_polydata(const Packing<2>&, double, const VtkExtras<2>&);

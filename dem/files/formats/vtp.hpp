@@ -19,8 +19,8 @@ struct VtkExtras {
   std::vector<Foot> feet;  // contacts with walls: lines to further points with image = 2, after the links
 };
 
-// XML with raw appended data (little endian, 64-bit headers). Points: the grains (inside the cell), then for each link
-// that leaves the cell the image of j it reaches (image = 1), so that lines have their true length and direction.
+// XML with inline base64 data (dem/files/formats/vtk_arrays.hpp). Points: the grains (inside the cell), then for each
+// link that leaves the cell the image of j it reaches (image = 1), so that lines have their true length and direction.
 // Point data: id, radius, mass, velocity, spin, image. Cell data (vertices, then links): kind (-1 for a vertex, else
 // 0 c, 1 s, 2 r, 3 sr, 4 d), gap, N, T, M (3D: vectors T, M), F. `time` [T0] as field data.
 template <int D>

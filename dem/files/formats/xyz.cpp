@@ -26,13 +26,14 @@ std::string extended_xyz(const Packing<D>& packing, double time) {
   text += packing.cell ? (D == 2 ? "pbc=\"T T F\"" : "pbc=\"T T T\"") : "pbc=\"F F F\"";
   text += " Time=";
   append_real(text, time);
-  text += " Properties=species:S:1:id:I:1:pos:R:3:radius:R:1:velo:R:3:angular_velocity:R:3:mass:R:1\n";
+  text += " Properties=species:S:1:pos:R:3:id:I:1:radius:R:1:velo:R:3:angular_velocity:R:3:mass:R:1\n";
   for (std::size_t k = 0; k < b.size(); ++k) {
-    text += "X " + std::to_string(b.id[k]);
+    text += "X";
     const auto vector = [&text](const Vec3& v) {
       for (int a = 0; a < 3; ++a) append(text, v[a]);
     };
     vector(spatial(b.position[k]));
+    text += ' ' + std::to_string(b.id[k]);
     append(text, b.radius[k]);
     vector(spatial(b.velocity[k]));
     vector(spatial(b.spin[k]));

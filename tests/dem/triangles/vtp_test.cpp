@@ -16,18 +16,18 @@ using ::testing::HasSubstr;
 TEST(TriangleVtp, PolygonsAreTheTrianglesWithTheirGrainsInTheCell) {
   const TrianglePacking p = random_triangle_state(3).packing;
   const std::string vtp = vtk_polydata(p, 0.25);
-  const auto points = vtk_array<double>(vtp, "Points"), pressure = vtk_array<double>(vtp, "pressure");
-  const auto corner = vtk_array<std::int64_t>(vtp, "connectivity", "<Polys>");
-  EXPECT_EQ(vtk_array<double>(vtp, "TimeValue", "<FieldData>"), (std::vector<double>{0.25}));
-  EXPECT_EQ(vtk_array<std::int64_t>(vtp, "id"), p.bodies.id);
-  EXPECT_EQ(vtk_array<double>(vtp, "spin"), p.bodies.spin);
-  EXPECT_EQ(vtk_array<std::int8_t>(vtp, "part"), (std::vector<std::int8_t>{0, 0, 0, 0, 1, 0, 0, 0, 0, 2}));
+  const auto points = oracle::vtk_array<double>(vtp, "Points"), pressure = oracle::vtk_array<double>(vtp, "pressure");
+  const auto corner = oracle::vtk_array<std::int64_t>(vtp, "connectivity", "<Polys>");
+  EXPECT_EQ(oracle::vtk_array<double>(vtp, "TimeValue", "<FieldData>"), (std::vector<double>{0.25}));
+  EXPECT_EQ(oracle::vtk_array<std::int64_t>(vtp, "id"), p.bodies.id);
+  EXPECT_EQ(oracle::vtk_array<double>(vtp, "spin"), p.bodies.spin);
+  EXPECT_EQ(oracle::vtk_array<std::int8_t>(vtp, "part"), (std::vector<std::int8_t>{0, 0, 0, 0, 1, 0, 0, 0, 0, 2}));
   EXPECT_THAT(vtp, HasSubstr("NumberOfPoints=\"30\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
                              "NumberOfPolys=\"10\""));
   ASSERT_EQ(corner.size(), 30u);
   const std::vector<std::int32_t> of = grain_of(p.grains);
-  const auto grain = vtk_array<std::int64_t>(vtp, "grain");
-  const auto ends = vtk_array<std::int64_t>(vtp, "offsets", "<Polys>");
+  const auto grain = oracle::vtk_array<std::int64_t>(vtp, "grain");
+  const auto ends = oracle::vtk_array<std::int64_t>(vtp, "offsets", "<Polys>");
   for (std::size_t k = 0; k < 10; ++k) {
     const auto g = static_cast<std::size_t>(of[k]);
     EXPECT_EQ(grain[k], p.grains.id[g]);
