@@ -104,8 +104,9 @@ def torture(program, data, folder, random, faults, count, until, names=None):
             process.stderr.close()
             if got in (-signal.SIGKILL, 130) and not told:
                 continue
-            if got < 0 and which != signal.SIGKILL and attempt == 0 and got == -which:
-                continue  # it came before the handlers were there
+            if got == -which and not told:
+                faults.did("signals before the handlers were there")
+                continue
             break
         if not told and got != code:
             told = f"exit {got} after {attempt} resumptions, straight {code}: {err[-300:]}"
