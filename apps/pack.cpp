@@ -172,6 +172,7 @@ int pack_command(int argc, char** argv) {
        {"--timings", "FILE.json", "where the time of the step loop went"}},
       {"SCENE.toml -o STATE.h5", "Runs the stages of a scene and writes the state it ends in."});
   args.require_inputs(1, 1, "one scene file");
+  const InterruptGuard guard;
   PackJob job;
   job.scene_path = args.inputs()[0];
   job.output = args.required("-o");
@@ -192,7 +193,6 @@ int pack_command(int argc, char** argv) {
   remove_abandoned(written);
   if (!job.resume && !args.has("--force")) refuse_to_lose(job);
 
-  const InterruptGuard guard;
   std::cerr << first_lines(job.scene, initial_state(job.scene, job.seed));
   Totals total;
   const int code = run_samples(job, total);
