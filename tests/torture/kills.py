@@ -78,6 +78,9 @@ def torture(program, data, folder, random, faults, count, until, names=None):
             start = time.monotonic()
             result = run(command, place, seconds=300)
             straight[name] = (result.code, files_of(program, place), time.monotonic() - start)
+            if result.code not in (0, 3):
+                faults.add("kill", command, f"{name}: exit {result.code} when left alone: {result.err[-300:]}")
+                return
             shutil.rmtree(place)
             os.makedirs(place)
         code, expected, seconds = straight[name]
@@ -125,7 +128,10 @@ def torture(program, data, folder, random, faults, count, until, names=None):
         file.write(f'scene = "{data}/scenes/disks-method2-a.toml"\nseeds = 3\nanalyze = ["counts", "rigidity"]\n[set]\n'
                    '"grains.count" = 20\n[[row]]\nname = "a"\n')
     command = [program, "study", "s.toml", "-j", "2"]
-    run(command + ["-o", "straight"], place, seconds=300)
+    alone = run(command + ["-o", "straight"], place, seconds=300)
+    if alone.code not in (0, 3):
+        faults.add("kill", command, f"a study left alone: exit {alone.code}: {alone.err[-300:]}")
+        return
     for k in range(200):
         process = subprocess.Popen(command + ["-o", "cut"], cwd=place, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                                    stderr=subprocess.DEVNULL, start_new_session=True)
@@ -140,6 +146,5 @@ def torture(program, data, folder, random, faults, count, until, names=None):
             time.sleep(0.3)  # the runs of a killed study notice that it is gone
     same = content(os.path.join(place, "straight/study.csv")) == content(os.path.join(place, "cut/study.csv"))
     if process.returncode not in (0, 3) or not same or leftovers(os.path.join(place, "cut")):
-        faults.add("kill", command, f"a killed study: exit {process.returncode}, same table {same}, left "
-                   f"{leftovers(os.path.join(place, 'cut'))}")
+        faults.add("kill", command, f"a killed study: exit {process.returncode}, same table {same}")
     faults.did("killed studies")
