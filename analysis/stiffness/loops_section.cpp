@@ -114,7 +114,8 @@ Json loops_section(const AnalysisInput& input, const AnalysisOptions& options) {
   const LoopCount count = count_loops(input.packing());
   const ForceReading reading = read_forces(input);
   // mu_r F0/a with mu_r in units of length: a moment limit over the length a = 1 of reduced units.
-  const double scale = input.state.law.rolling_friction > 0 ? input.state.law.rolling_friction * reading.scale : kUndefined;
+  const double scale =
+      input.state.law.rolling_friction > 0 ? input.state.law.rolling_friction * reading.scale : kUndefined;
   Json json;
   json["independent"] = count.independent, json["components"] = count.components;
   json["scale"] = scale;
@@ -129,7 +130,8 @@ Json loops_section(const AnalysisInput& input, const AnalysisOptions& options) {
   for (std::size_t c = 0; c < kClasses.size(); ++c) {
     const ClassForces f = forces_of(input, classes, kClasses[c]);
     json[kNames[c]] = class_json(f, scale, reading.known);
-    if (reading.known && !f.total.empty()) json["histograms"][std::string("log10_F_") + kNames[c]] = histogram_of(f, reading.scale);
+    if (reading.known && !f.total.empty())
+      json["histograms"][std::string("log10_F_") + kNames[c]] = histogram_of(f, reading.scale);
   }
   return json;
 }

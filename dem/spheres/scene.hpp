@@ -19,10 +19,10 @@ inline constexpr std::array<std::string_view, 4> kSphereArrangementNames{"random
 // [grains]
 struct SphereGrainsScene {
   SphereArrangement arrangement = SphereArrangement::random;
-  double edge = 8;           // [a] of the cell, by insertion
-  double shell_radius = 1;   // R_s [a] of a soft-particle
-  double volume_factor = 3;  // beta: volume of the listed grains over that of the room, by insertion
-  double trials = 3e4;       // I: random points tried for each grain, by insertion
+  double edge = 8;                          // [a] of the cell, by insertion
+  double shell_radius = 1;                  // R_s [a] of a soft-particle
+  double volume_factor = 3;                 // beta: volume of the listed grains over that of the room, by insertion
+  double trials = 3e4;                      // I: random points tried for each grain, by insertion
   std::optional<double> inserted_fraction;  // [-] reached by the choice of I, by insertion
   int count = 1000;
   double solid_fraction = 0.3;            // [-] Phi_I
