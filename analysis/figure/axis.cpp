@@ -10,7 +10,8 @@
 namespace isostat {
 namespace {
 
-constexpr double kRounding = 1e-9;  // [axis range] a tick this far outside the range is on its end
+constexpr double kMostShown = 1e140;  // beyond it and its inverse, ranges, ratios and their margins overflow
+constexpr double kRounding = 1e-9;    // [axis range] a tick this far outside the range is on its end
 
 RichText power_of_ten(int exponent) {
   if (exponent == 0) return plain("1");
@@ -81,7 +82,7 @@ Ticks log_ticks(const Axis& axis, double length, double spacing) {
 
 }  // namespace
 
-bool Axis::shows(double value) const { return std::isfinite(value) && (!log || value > 0); }
+bool Axis::shows(double value) const { return std::abs(value) <= kMostShown && (!log || value >= 1 / kMostShown); }
 
 double Axis::fraction(double value) const {
   return log ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);

@@ -8,6 +8,7 @@
 namespace isostat {
 namespace {
 
+constexpr double kNothing = 1e-290;  // below it, the steps of an axis are no normal numbers: shown as 0
 constexpr double kLinearMargin = 0.04, kLogMargin = 0.05;  // [range] kept free at both ends
 
 struct Range {
@@ -27,8 +28,8 @@ Axis fitted(const ChartAxis& wish, Range range, bool from_zero) {
     if (from_zero) range.add(0);
     // flat up to rounding: a range of its own, so that rounding noise isn't blown up to the size of the frame
     const double size = std::max(std::abs(range.low), std::abs(range.high));
-    if (range.high - range.low <= 1e-12 * size || size == 0) {
-      const double half = size > 0 ? 0.05 * size : 1;
+    if (range.high - range.low <= 1e-12 * size || size < kNothing) {
+      const double half = size >= kNothing ? 0.05 * size : 1;
       range.low -= half, range.high += half;
     }
     const double margin = kLinearMargin * (range.high - range.low);

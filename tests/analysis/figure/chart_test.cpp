@@ -239,6 +239,33 @@ TEST(Chart, LinesBreakWhereALogAxisCannotShowThem) {
   EXPECT_EQ(pieces, 2);
 }
 
+// At both ends of the range of doubles: whatever is drawn has a place on the page.
+TEST(Chart, EveryPointHasAPlaceWhateverTheNumbers) {
+  for (const bool log : {false, true})
+    for (const std::vector<double>& y : {std::vector<double>{0, 1e-308, 0},
+                                         {1e-308, 1e-300, 2e-300},
+                                         {-1.7e308, 1, 1.7e308},
+                                         {1, 1e300, 1.7e308},
+                                         {5e-324, 1, 1e300},
+                                         {1e-308, 1, 2}}) {
+      Chart chart;
+      chart.y.log = log;
+      Curve line;
+      line.x = {0, 1, 2}, line.y = y;
+      chart.curves.push_back(line);
+      line.x = y, line.y = {1, 2, 3};
+      Chart turned;
+      turned.x.log = log;
+      turned.curves.push_back(line);
+      for (const Chart& c : {chart, turned}) try {
+          for (const auto& l : draw({c}).canvas.lines)
+            for (const Vec2& at : l.points)
+              ASSERT_TRUE(std::isfinite(at[0] + at[1])) << log << ' ' << y[0] << ' ' << y[1];
+        } catch (const std::invalid_argument&) {  // nothing of it can be shown
+        }
+    }
+}
+
 TEST(Chart, StackedChartsShareTheirAxis) {
   Chart a, b;
   Curve line;
