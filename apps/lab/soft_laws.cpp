@@ -38,10 +38,6 @@ struct Team {
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-struct Curve {
-  std::vector<double> force, force_error, slope, slope_error;
-};
-
 template <class Get>
 std::vector<std::vector<double>> columns(const std::vector<SoftMeasurement>& all, Get get) {
   std::vector<std::vector<double>> samples;
@@ -53,6 +49,18 @@ std::vector<double> forces_of(const SoftMeasurement& m) {
   std::vector<double> f;
   for (const NormalPoint& p : m.normal) f.push_back(p.force);
   return f;
+}
+
+// Forces on this partner by deformation, in the mean over the packings.
+std::vector<double> mean_forces(SoftParticleTest& test, SoftPartner partner, const Team& team) {
+  test.partner = partner;
+  return mean_of(columns(measure_soft_particles(test, team.seed, team.packings, team.threads), forces_of));
+}
+
+// A law that does not begin with a jump.
+SoftLaw continuous_fit(const std::vector<double>& deltas, const std::vector<double>& force) {
+  const SoftLaw fit = fit_soft_law(deltas, force);
+  return fit.c > 0 ? fit_soft_law_from(0, deltas, force) : fit;
 }
 
 // |F_t|/F_n in the mean once it slides, less what was there before.
@@ -86,8 +94,7 @@ SoftParticleLaw partner_law(SoftParticleTest test, SoftPartner partner, const st
                     {"F_error", force_error[k]},
                     {"k_t", slope[k]},
                     {"k_t_error", slope_error[k]}});
-  SoftLaw normal = fit_soft_law(deltas, force);
-  if (normal.c > 0) normal = fit_soft_law_from(0, deltas, force);
+  const SoftLaw normal = continuous_fit(deltas, force);
   const SoftLaw tangential = fit_soft_law_from(normal.delta, deltas, slope);
   if (!std::isfinite(normal.a + normal.b + normal.c + tangential.a + tangential.b))
     throw InputError("command line", 0, "--packings", std::to_string(team.packings),
@@ -105,16 +112,11 @@ SoftParticleLaw partner_law(SoftParticleTest test, SoftPartner partner, const st
 // q of F_ball = F_wall (R/(R + R_s))^q.
 double curvature(SoftParticleTest test, const Team& team, Json& json) {
   test.delta = kAtLast, test.alpha = {};
-  const auto mean_force = [&] {
-    return mean_of(columns(measure_soft_particles(test, team.seed, team.packings, team.threads), forces_of));
-  };
-  test.partner = SoftPartner::wall;
-  const std::vector<double> wall = mean_force();
-  test.partner = SoftPartner::ball;
+  const std::vector<double> wall = mean_forces(test, SoftPartner::wall, team);
   double xx = 0, xy = 0;
   for (const double radius : kBalls) {
     test.partner_radius = radius * test.insertion.shell_radius;
-    const std::vector<double> force = mean_force();
+    const std::vector<double> force = mean_forces(test, SoftPartner::ball, team);
     const double x = std::log(radius / (radius + 1));
     for (std::size_t k = 0; k < force.size(); ++k) {
       const double share = force[k] / wall[k];
@@ -130,19 +132,15 @@ double curvature(SoftParticleTest test, const Team& team, Json& json) {
 void confine(SoftParticleTest test, const Team& team, SphereLaw& law, Json& json) {
   const double rs = test.insertion.shell_radius, unit = test.law.grain.modulus * rs * rs;
   test.alpha = {}, test.delta = kAtWall;
-  const auto mean_force = [&](SoftPartner partner) {
-    test.partner = partner;
-    return mean_of(columns(measure_soft_particles(test, team.seed, team.packings, team.threads), forces_of));
-  };
-  const std::vector<double> wall = mean_force(SoftPartner::wall), cage = mean_force(SoftPartner::cage);
+  const std::vector<double> wall = mean_forces(test, SoftPartner::wall, team),
+                            cage = mean_forces(test, SoftPartner::cage, team);
   double ratio = 0;
   for (std::size_t k = 0; k < kAtWall.size(); ++k) {
     const bool counts = std::find(kAtLast.begin(), kAtLast.end(), kAtWall[k]) != kAtLast.end();
     if (counts) ratio += cage[k] / wall[k] / static_cast<double>(kAtLast.size());
     json.push_back({{"delta", kAtWall[k]}, {"F", cage[k]}, {"over_wall", cage[k] / wall[k]}});
   }
-  SoftLaw fit = fit_soft_law(kAtWall, cage);
-  if (fit.c > 0) fit = fit_soft_law_from(0, kAtWall, cage);
+  const SoftLaw fit = continuous_fit(kAtWall, cage);
   law.soft_solid.force = fit.a / unit, law.soft_solid.exponent = fit.b, law.soft_solid.offset = fit.c / unit;
   law.soft_soft.force *= ratio, law.soft_soft.offset *= ratio;
 }

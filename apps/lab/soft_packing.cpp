@@ -26,11 +26,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Runs = std::vector<SoftPackingRun>;  // of the packings
 
-// The file of soft-laws and the level taken from it.
-struct Measured {
-  Json file, level;
-};
-
 SoftParticleLaw law_of(const Json& json) {
   return {
       json.at("force"),   json.at("exponent"), json.at("offset"), json.at("tangential"), json.at("tangential_exponent"),

@@ -15,9 +15,6 @@
 namespace isostat {
 namespace {
 
-constexpr int kFinerSteps = 3;
-constexpr double kFinerStep = 2.0 / 3;
-
 double thread_seconds() {
   timespec t{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
@@ -94,7 +91,7 @@ class Compression {
 
   double strain() const { return 1 - state_.packing.cell->length[0] / state_.cell_motion.reference_length[0]; }
 
-  // With smaller steps where it blows up: a grain wedged between two large ones is stiffer than the step allows for.
+  // With smaller steps where it blows up.
   void go_on_to(double strain) {
     const State<Spheres> before = state_;
     for (int attempt = 0;; ++attempt) try {

@@ -17,9 +17,6 @@ namespace isostat {
 namespace {
 
 constexpr Vec3 kAxis{{0, 1, 0}}, kSlip{{-1, 0, 0}};  // of a rotation: slip = axis x approach
-// A grain wedged between two large ones is stiffer than the step allows for in one of some thirty packings at step 3.
-constexpr int kFinerSteps = 3;
-constexpr double kFinerStep = 2.0 / 3;
 constexpr double kHeavy = 1e24;  // times the mass of a solid sphere that stands in for a soft one: no force moves it
 
 class Experiment {

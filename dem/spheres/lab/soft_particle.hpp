@@ -36,6 +36,11 @@ struct Relaxation {
 };
 Relaxation relaxation_of(SoftProtocol protocol);
 
+// What blows up is tried again with smaller steps, so often: a grain wedged between two large ones is stiffer than the
+// step allows for in one of some thirty packings at step 3.
+inline constexpr int kFinerSteps = 3;
+inline constexpr double kFinerStep = 2.0 / 3;
+
 struct SoftParticleTest {
   SoftPartner partner = SoftPartner::wall;
   double partner_radius = 0;  // of a ball, which stands for a solid grain that nothing moves
