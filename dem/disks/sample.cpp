@@ -70,6 +70,8 @@ void refuse_without_cell(const Scene& scene, const std::string& path) {
     if (s.stress_2) refuse(stage_key(k, "stress_2"));
     if (s.driven(0)) refuse(stage_key(k, "strain_rate_1"));
     if (s.driven(1)) refuse(stage_key(k, "strain_rate_2"));
+    if (s.stress_12) refuse(stage_key(k, "stress_12"));
+    if (s.shear_driven()) refuse(stage_key(k, "shear_rate"));
   }
   if (!scene.output.snapshot_solid_fractions.empty()) refuse("output.snapshot_solid_fractions");
   if (!faults.empty()) throw InputError(std::move(faults));
@@ -107,6 +109,14 @@ void contain(State<Disks>& state, const State<Disks>& file, const std::string& p
   state.surroundings.open = file.surroundings.open;
 }
 
+// The cell in its shape nearest to a rectangle: as it would be lowered to when it shears.
+void lower_tilt(Packing<2>& packing) {
+  if (!packing.cell) return;
+  const int turns = packing.cell->turns();
+  packing.cell->tilt -= turns * packing.cell->length[0];
+  for (Link<2>& l : packing.links) l.shift[0] += turns * l.shift[1];
+}
+
 // grains.file: bodies, cell and spring histories of a packing under the scene's law, at time 0.
 State<Disks> state_from_file(const Scene& scene, std::uint64_t seed) {
   const std::string& path = scene.grains.file;
@@ -121,6 +131,7 @@ State<Disks> state_from_file(const Scene& scene, std::uint64_t seed) {
   if (packing.bodies.size() == 0) throw InputError(path, 0, "grains.file", path, "it holds no grain");
   State<Disks> state = without_bodies(scene, seed);
   state.packing = std::move(packing);
+  lower_tilt(state.packing);
   contain(state, file.state, path);
   set_disk_inertia(state.packing.bodies);
   if (!file.links_given) state.packing.links.clear();

@@ -121,10 +121,10 @@ void take(PackingFile& file, State<TriangleGrains> state) {
 // Grains of a table, a cell, and the links of a second table if there is one.
 template <int D>
 void read_tables_into(PackingFile& file, const TextTable& grains, const std::optional<TextTable>& links,
-                      const std::optional<std::vector<double>>& own_box, const PackingReading& reading) {
+                      const std::optional<std::vector<double>>& own_box, double tilt, const PackingReading& reading) {
   Packing<D> packing;
   packing.bodies = read_grains<D>(grains);
-  if (own_box) packing.cell = cell_of<D>(*own_box);
+  if (own_box) packing.cell = cell_of<D>(*own_box), packing.cell->tilt = tilt;
   set_box(packing, grains.path, reading);
   check_cell(packing, grains.path);
   require_lengths(packing.cell, packing.bodies, grains.path, reading.gap_tolerance);
@@ -137,11 +137,11 @@ void read_tables_into(PackingFile& file, const TextTable& grains, const std::opt
 }
 
 void read_tables(PackingFile& file, const TextTable& grains, const std::optional<TextTable>& links,
-                 const std::optional<std::vector<double>>& own_box, const PackingReading& reading) {
-  if (grain_dimension(grains) == 3)
-    read_tables_into<3>(file, grains, links, own_box, reading);
-  else
-    read_tables_into<2>(file, grains, links, own_box, reading);
+                 const std::optional<std::vector<double>>& own_box, double tilt, const PackingReading& reading) {
+  if (grain_dimension(grains) == 2) return read_tables_into<2>(file, grains, links, own_box, tilt, reading);
+  if (tilt != 0)
+    throw InputError(grains.path, 0, "BOX BOUNDS", "xy", "a cell in space stands upright; only one of the plane tilts");
+  read_tables_into<3>(file, grains, links, own_box, 0, reading);
 }
 
 bool exists(const std::string& path) {
@@ -157,7 +157,7 @@ void read_csv(PackingFile& file, const std::string& path, const PackingReading& 
     links_text = read_whole_file(links_path);
     links = parse_csv(links_text, links_path);
   }
-  read_tables(file, parse_csv(text, path), links, std::nullopt, reading);
+  read_tables(file, parse_csv(text, path), links, std::nullopt, 0, reading);
 }
 
 void read_dump(PackingFile& file, const std::string& path, const PackingReading& reading) {
@@ -169,7 +169,7 @@ void read_dump(PackingFile& file, const std::string& path, const PackingReading&
     links = parse_dump(links_text, links_path);
   }
   const DumpFrame grains = parse_dump(text, path);
-  read_tables(file, grains.table, links ? std::optional(links->table) : std::nullopt, grains.box, reading);
+  read_tables(file, grains.table, links ? std::optional(links->table) : std::nullopt, grains.box, grains.tilt, reading);
 }
 
 // X.csv may stand for X.grains.csv.
@@ -193,7 +193,8 @@ PackingFormat sniff_packing_format(const std::string& path) {
     const std::size_t first = line.find_first_not_of(" \t\r\v\f");
     if (first == std::string::npos || line[first] == '#') continue;
     const std::string word = line.substr(first, line.find_first_of(" \t\r,", first) - first);
-    if (word == "cell" || word == "grain" || word == "contact" || word == "beam" || word == "triangle")
+    if (word == "cell" || word == "tilt" || word == "grain" || word == "contact" || word == "beam" ||
+        word == "triangle")
       return PackingFormat::network;
     if (word == "ITEM:") return PackingFormat::dump;
     if (line.find(',') != std::string::npos) return PackingFormat::csv;

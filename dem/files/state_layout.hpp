@@ -1,4 +1,4 @@
-// Format version 6 of a state file, described once: writing and reading both follow transfer(). Io is StateWriter or
+// Format version 7 of a state file, described once: writing and reading both follow transfer(). Io is StateWriter or
 // StateReader of dem/files/state_io.hpp. Structured bindings name every member, so that a new member of State does
 // not compile until it has its place here. Raise kStateFormatVersion and extend docs/formats.md with any change;
 // io.since() says whether a member is there in an older file.
@@ -12,7 +12,7 @@ namespace isostat {
 template <class Io, int D>
 void transfer_progress(Io& io, StageProgress<D>& progress) {
   auto& [stage, start_time, started, drag_on, quiet_since, contact_set, unchanged_since, start_stiffness, start_stress,
-         peak_stress, drifting, solves, unmet] = progress;
+         start_shear_stress, peak_stress, drifting, solves, unmet] = progress;
   io.value("/progress", "stage", stage);
   io.value("/progress", "start_time", start_time);
   io.value("/progress", "started", started);
@@ -22,6 +22,7 @@ void transfer_progress(Io& io, StageProgress<D>& progress) {
   io.value("/progress", "unchanged_since", unchanged_since);
   io.value("/progress", "start_stiffness", start_stiffness);
   io.value("/progress", "start_stress", start_stress);
+  if (io.since(7)) io.value("/progress", "start_shear_stress", start_shear_stress);
   io.value("/progress", "peak_stress", peak_stress);
   io.value("/progress", "drifting", drifting);
   io.count_if_any("/progress", "solves", solves);
@@ -87,14 +88,20 @@ void transfer(Io& io, State<System>& state) {
   io.value("/run", "time_step", time_step);
   for (std::size_t a = 0; a < imposed_stress.size(); ++a)
     io.value("/run", "imposed_stress_" + std::to_string(a + 1), imposed_stress[a]);
+  io.value("/run", "imposed_stress_12", imposed_stress.shear);
   io.value("/run", "seed", seed);
   io.value("/run", "random_counter", random_counter);
   transfer_packing(io, packing);
   transfer_law(io, law);
-  auto& [reference_length, strain_rate, stress] = cell_motion;
+  auto& [reference_length, strain_rate, stress, shear_strain_rate, shear_stress, shear_strain] = cell_motion;
   io.value("/cell", "reference_length", reference_length);
   io.value("/cell", "strain_rate", strain_rate);
   io.value("/cell", "stress", stress);
+  if (io.since(7)) {
+    io.value("/cell", "shear_strain_rate", shear_strain_rate);
+    io.value("/cell", "shear_stress", shear_stress);
+    io.value("/cell", "shear_strain", shear_strain);
+  }
   transfer_memory(io, memory);
   transfer_progress(io, progress);
   if (io.since(4)) transfer_surroundings(io, surroundings);

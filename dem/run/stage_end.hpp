@@ -85,6 +85,7 @@ class StageEnd {
     for (int a = 0; a < System::dimension; ++a)
       if (stage_.driven(a))
         largest = std::max(largest, std::abs(1 - s_.packing.cell->length[a] / s_.cell_motion.reference_length[a]));
+    if (stage_.shear_driven()) largest = std::max(largest, std::abs(s_.cell_motion.shear_strain));
     return largest;
   }
   // Change of the stress of the driven directions since the stage began [F0/a].
@@ -93,6 +94,8 @@ class StageEnd {
     double largest = 0;
     for (int a = 0; a < System::dimension; ++a)
       if (stage_.driven(a)) largest = std::max(largest, std::abs(change[a]));
+    if (stage_.shear_driven())
+      largest = std::max(largest, std::abs(static_shear_stress(s_) - s_.progress.start_shear_stress));
     return largest;
   }
   bool failed() const {

@@ -20,14 +20,15 @@ void check_control(const Scene& scene, std::size_t i, std::vector<SceneConflict>
   one_master(s.stress_1, s.strain_rate_1, "strain_rate_1", "stress_1");
   one_master(s.stress_2, s.strain_rate_2, "strain_rate_2", "stress_2");
   one_master(s.stress_3, s.strain_rate_3, "strain_rate_3", "stress_3");
+  one_master(s.stress_12, s.shear_rate, "shear_rate", "stress_12");
   const bool driven = s.driven();
-  const std::vector<std::string> involved{key("until"), key("strain_rate_1"), key("strain_rate_2")};
+  const std::vector<std::string> involved{key("until"), key("strain_rate_1"), key("strain_rate_2"), key("shear_rate")};
   if (waits_for_equilibrium(s.until) && driven)
     found.push_back({key("until"), quoted_text(name(s.until)),
                      "a driven cell never comes to rest: \"strain\", \"failure\" or \"time\"", involved});
   if ((s.until == Until::strain || s.until == Until::failure) && !driven)
-    found.push_back(
-        {key("until"), quoted_text(name(s.until)), "needs a strain rate other than 0 along a direction", involved});
+    found.push_back({key("until"), quoted_text(name(s.until)),
+                     "needs a strain rate other than 0 along a direction, or of shear", involved});
   if (s.until == Until::strain && !(s.strain > 0))
     found.push_back({key("strain"),
                      real_text(s.strain),

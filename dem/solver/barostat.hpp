@@ -1,6 +1,10 @@
 // The degrees of freedom of the cell (Gilabert 2007, Eq. 3):  M d2(eps_a)/dt2 = sigma_imposed - sigma_aa, with
 // eps_a' = -L_a' / L0_a, compression positive, L0 the cell at the start of the stage, and caps on the rate and on
 // |L_a'|. A direction may have its rate imposed instead.
+//
+// Shear is one more, with the same mass: eps_12' = -s / L0_2, where s is the part of the tilt's rate that is no stretch
+// of the first edge:  tilt' = (L1'/L1) tilt + s. So the velocity gradient is L1'/L1, L2'/L2 and s/L2, each driven by
+// its own stress whatever the tilt is, and nothing depends on which of the equivalent tilts describes the cell.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -17,18 +21,21 @@ template <int D>
 struct CellControl {
   ImposedStress<D> stress;     // [F0/a]
   Vec<D> strain_rate{};        // [1/T0] imposed along an edge without imposed stress; 0: fixed
+  double shear_rate = 0;       // [1/T0] s/L2 imposed without imposed shear stress; 0: no shear
   double max_strain_rate = 0;  // [1/T0]; 0: no cap
   double max_edge_speed = std::numeric_limits<double>::infinity();  // [a/T0] of |Ldot| under an imposed stress
   double inertia = 1;                                               // M [m]
   bool rate_coupling = false;                                       // peculiar velocities also feel -(Ldot/L) v
-  bool moves() const { return largest_stress(stress) || strain_rate != Vec<D>{}; }
+  bool shears() const { return stress.shear || shear_rate != 0; }
+  bool moves() const { return largest_stress(stress) || strain_rate != Vec<D>{} || shears(); }
 };
 
-// Ldot_a / L_a: the velocity gradient that the bodies' affine velocities have [1/T0].
+// The velocity gradient that the bodies' affine velocities have [1/T0].
 template <int D>
 struct CellFlow {
-  std::array<double, D> half{};  // at the half step
-  std::array<double, D> now{};   // predicted to the full step
+  std::array<double, D> half{};          // Ldot_a / L_a at the half step
+  std::array<double, D> now{};           // predicted to the full step
+  double shear_half = 0, shear_now = 0;  // d(v_x)/dy
 };
 
 // Moves the cell by dt and says how positions are to be rescaled.
@@ -36,17 +43,19 @@ template <int D>
 CellFlow<D> advance_cell(const CellControl<D>& control, double dt, CellMotion<D>& motion, PeriodicCell<D>& cell,
                          MotionStep<D>& step) {
   CellFlow<D> flow;
+  const PeriodicCell<D> old = cell;
+  const auto driven = [&](double stress, double measured, double before, double length) {
+    double rate = before + dt * (stress - measured) / control.inertia;
+    if (control.max_strain_rate > 0) rate = std::clamp(rate, -control.max_strain_rate, control.max_strain_rate);
+    const double fastest = control.max_edge_speed / length;
+    return std::clamp(rate, -fastest, fastest);
+  };
   for (int a = 0; a < D; ++a) {
     const auto u = static_cast<std::size_t>(a);
     const double before = motion.strain_rate[a];
     const auto& stress = control.stress[u];
-    double rate = control.strain_rate[a];
-    if (stress) {
-      rate = before + dt * (*stress - motion.stress[a]) / control.inertia;
-      if (control.max_strain_rate > 0) rate = std::clamp(rate, -control.max_strain_rate, control.max_strain_rate);
-      const double fastest = control.max_edge_speed / motion.reference_length[a];
-      rate = std::clamp(rate, -fastest, fastest);
-    }
+    const double rate =
+        stress ? driven(*stress, motion.stress[a], before, motion.reference_length[a]) : control.strain_rate[a];
     const double ldot = -rate * motion.reference_length[a];
     const double ldot_now = ldot - 0.5 * (rate - before) * motion.reference_length[a];
     const double old_length = cell.length[a], half_length = old_length + 0.5 * dt * ldot;
@@ -58,6 +67,24 @@ CellFlow<D> advance_cell(const CellControl<D>& control, double dt, CellMotion<D>
     flow.now[u] = ldot_now / cell.length[a];
     if (control.rate_coupling) step.keep[u] -= dt * flow.half[u];
   }
+  cell.tilt = step.scale[0] * old.tilt;
+  if (!control.shears()) return flow;
+  const double before = motion.shear_strain_rate, reference = motion.reference_length[1];
+  const double rate = control.stress.shear ? driven(*control.stress.shear, motion.shear_stress, before, reference)
+                                           : -control.shear_rate * old.length[1] / reference;
+  const double moved = -rate * reference * dt;
+  motion.shear_strain_rate = rate;
+  cell.tilt += moved;
+  // Positions move by the matrix that takes the edges of the old cell, or of the one midway, to those of the new.
+  const double half_length = 0.5 * (old.length[1] + cell.length[1]), half_tilt = 0.5 * (old.tilt + cell.tilt);
+  step.shear = moved / old.length[1];
+  step.half_shear = (cell.tilt - step.half_scale[0] * half_tilt) / half_length;
+  flow.shear_half = moved / dt * (1 - 0.5 * dt * flow.half[0]) / half_length;
+  flow.shear_now = (moved / dt - 0.5 * (rate - before) * reference) / cell.length[1];
+  motion.shear_strain += dt * flow.shear_half;
+  if (control.rate_coupling) step.shear_coupling = dt * flow.shear_half;
+  step.turns = cell.turns();
+  cell.tilt -= step.turns * cell.length[0];
   return flow;
 }
 

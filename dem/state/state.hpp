@@ -16,6 +16,8 @@ struct CellMotion {
   Vec<D> reference_length{};  // [a] L0: the cell at the start of the stage; strain rate = -Ldot / L0; 0 without cell
   Vec<D> strain_rate{};       // [1/T0] at the last half step, compression positive
   Vec<D> stress{};  // [F0/a] measured sigma_11, sigma_22(, sigma_33) at `time`, kinetic and viscous parts included
+  // Of a cell that shears: eps_12' and sigma_12 in the same sense, and d(tilt)/L2 summed up since the stage began.
+  double shear_strain_rate = 0, shear_stress = 0, shear_strain = 0;
 };
 
 // Energy taken out of, or put into, the bodies since the start of the run; kept only when the scene asks for energies.
@@ -40,6 +42,7 @@ struct StageProgress {
   double unchanged_since = 0;     // [T0] since when it has been the same
   double start_stiffness = 0;     // K_N [F0/a] when the stage began
   Vec<D> start_stress{};          // [F0/a] static stress sigma_11, sigma_22(, sigma_33) when the stage began
+  double start_shear_stress = 0;  // [F0/a] and sigma_12
   double peak_stress = 0;         // [F0/a] largest change of the stress of a driven direction so far
   bool drifting = false;          // static solves have silenced the vibrations, but not what floppy modes still do
   std::int64_t solves = 0;        // static solves of the run so far that have moved the packing, in no time

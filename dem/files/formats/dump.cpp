@@ -21,12 +21,15 @@ template <int D>
 std::string frame_header(const Packing<D>& packing, std::int64_t step, std::string_view items, std::size_t count) {
   std::string text = "ITEM: TIMESTEP\n" + std::to_string(step) + "\nITEM: NUMBER OF " + std::string(items) + "\n" +
                      std::to_string(count) + "\nITEM: BOX BOUNDS";
+  const double tilt = packing.cell ? packing.cell->tilt : 0;
+  if (tilt != 0) text += " xy xz yz";
   for (int k = 0; k < 3; ++k) text += packing.cell && k < D ? " pp" : k < D ? " ff" : " pp";
   text += '\n';
   for (int k = 0; k < 3; ++k) {
     double low = -0.5, high = 0.5;  // of the unused axis of a planar packing
     if (k < D && packing.cell) {
       low = 0, high = packing.cell->length[k];
+      if (k == 0) low += std::min(0.0, tilt), high += std::max(0.0, tilt);  // of the box around the tilted cell
     } else if (k < D) {
       low = high = 0;
       for (std::size_t b = 0; b < packing.bodies.size(); ++b) {
@@ -37,6 +40,7 @@ std::string frame_header(const Packing<D>& packing, std::int64_t step, std::stri
     }
     append_real(text, low);
     append(text, high);
+    if (tilt != 0) append(text, k == 0 ? tilt : 0.0);
     text += '\n';
   }
   return text;
@@ -85,25 +89,37 @@ double number_or_throw(std::string_view text, const std::string& path, int line,
 struct Box {
   std::array<double, 3> low{}, high{};
   std::array<bool, 3> periodic{};
+  double tilt = 0;
 };
 
 Box parse_box(std::string_view item, Lines& lines, const std::string& path) {
   Box box;
-  const auto words = fields_of(item);  // ITEM: BOX BOUNDS pp pp pp
+  auto words = fields_of(item);  // ITEM: BOX BOUNDS pp pp pp, of a tilted cell xy xz yz pp pp pp
+  const bool tilted = words.size() == 9 && words[3] == "xy" && words[4] == "xz" && words[5] == "yz";
+  if (tilted) words.erase(words.begin() + 3, words.begin() + 6);
   if (words.size() > 6)
-    throw InputError(path, lines.number(), "BOX BOUNDS", std::string(item), "a tilted cell is not supported");
+    throw InputError(path, lines.number(), "BOX BOUNDS", std::string(item), "'pp pp pp' or 'xy xz yz pp pp pp'");
   for (std::size_t k = 0; k < 3; ++k) box.periodic[k] = words.size() == 6 && words[k + 3] == "pp";
   for (std::size_t k = 0; k < 3; ++k) {
     std::string_view line;
     if (!lines.next(line))
       throw InputError(path, lines.number(), "BOX BOUNDS", "", "the file ends here; three lines follow");
     const auto f = fields_of(line);
-    if (f.size() != 2) throw InputError(path, lines.number(), "BOX BOUNDS", std::string(line), "must be two numbers");
+    if (f.size() != (tilted ? 3 : 2))
+      throw InputError(path, lines.number(), "BOX BOUNDS", std::string(line),
+                       tilted ? "must be three numbers" : "must be two numbers");
     box.low[k] = number_or_throw(f[0], path, lines.number(), "BOX BOUNDS");
     box.high[k] = number_or_throw(f[1], path, lines.number(), "BOX BOUNDS");
     if (!(box.high[k] > box.low[k]))
       throw InputError(path, lines.number(), "BOX BOUNDS", std::string(line), "must increase");
+    const double tilt = tilted ? number_or_throw(f[2], path, lines.number(), "BOX BOUNDS") : 0;
+    if (k == 0) box.tilt = tilt;
+    if (k > 0 && tilt != 0)
+      throw InputError(path, lines.number(), "BOX BOUNDS", std::string(line), "only xy may tilt a cell: xz = yz = 0");
   }
+  box.low[0] -= std::min(0.0, box.tilt), box.high[0] -= std::max(0.0, box.tilt);
+  if (!(box.high[0] > box.low[0]))
+    throw InputError(path, lines.number(), "BOX BOUNDS", "xy", "the bounds of x are those of the tilted cell");
   return box;
 }
 
@@ -218,6 +234,8 @@ DumpFrame parse_dump(std::string_view text, const std::string& path) {
   const std::array<std::string, 3> axes{"x", "y", "z"};
   for (std::size_t k = 0; k < 3; ++k) {
     const double edge = box.high[k] - box.low[k];
+    if (box.tilt != 0 && (frame.table.column(axes[k] + "s") || frame.table.column(axes[k] + "su")))
+      throw InputError(path, 0, axes[k] + "s", "", "scaled coordinates of a tilted cell; write x, y");
     convert_column(frame, axes[k] + "u", axes[k], 1, 0);
     convert_column(frame, axes[k] + "s", axes[k], edge, box.low[k]);
     convert_column(frame, axes[k] + "su", axes[k], edge, box.low[k]);
@@ -234,6 +252,7 @@ DumpFrame parse_dump(std::string_view text, const std::string& path) {
   if (periodic != 0) {
     frame.box.emplace();
     for (std::size_t k = 0; k < 3; ++k) frame.box->push_back(box.high[k] - box.low[k]);
+    frame.tilt = box.tilt;
   }
   return frame;
 }

@@ -23,11 +23,13 @@ std::string links_dump_path(std::string_view path);
 
 // The last frame of a dump, columns renamed to those of dem/files/formats/text_table.hpp: xu, yu, zu and the scaled xs,
 // ys, zs (xsu, ysu, zsu) are read as positions, radius or diameter as r. `box`: edges along the axes with a periodic
-// boundary ("pp"); a cell periodic along some of the packing's axes only, or tilted, is refused.
+// boundary ("pp"), of the cell itself where LAMMPS gives the box around a tilted one; a cell periodic along some of the
+// packing's axes only, or tilted otherwise than by xy, is refused.
 struct DumpFrame {
   TextTable table;
   std::deque<std::string> owned;           // text of converted cells that the table views; stays put when moved
   std::optional<std::vector<double>> box;  // [length] three edges
+  double tilt = 0;                         // xy
 };
 DumpFrame parse_dump(std::string_view text, const std::string& path);
 
