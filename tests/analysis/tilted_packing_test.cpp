@@ -24,7 +24,7 @@ using Json = nlohmann::ordered_json;
 // Sheared for a while: contacts with stretched springs in a cell that leans.
 AnalysisInput sheared_packing() {
   oracle::RandomDisks r;
-  r.count = 60, r.law = oracle::soft_law(), r.squeeze = 0.85, r.speed = 0.2;
+  r.count = 60, r.law = oracle::soft_law(), r.squeeze = 0.77, r.speed = 0.2;
   r.law.attraction = 0;
   AnalysisInput input;
   input.path = "test", input.links_given = true;
