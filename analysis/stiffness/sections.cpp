@@ -94,6 +94,53 @@ Json described(const SphereModuli& m) {
   return {{"tensor", rows}, {"bulk", bulk}, {"shear", (diagonal - 3 * bulk) / 10 + shear / 5}};
 }
 
+Json described(const EnergyShares& e) {
+  const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
+  return {{"normal", number(e.normal)},
+          {"tangential", number(e.tangential)},
+          {"rolling", number(e.rolling)},
+          {"distant", number(e.distant)},
+          {"participation", number(e.participation)}};
+}
+
+// Of an isotropic compression, and of the shear angles (in space all three, their energies added).
+template <std::size_t N>
+Json energy_json(const ElasticResponse<N>& response, const std::vector<bool>& contact) {
+  constexpr std::size_t d = N == 3 ? 2 : 3;
+  std::array<double, N> bulk{};
+  std::vector<std::array<double, N>> shear(N - d);
+  for (std::size_t a = 0; a < d; ++a) bulk[a] = 1;
+  for (std::size_t a = 0; a < N - d; ++a) shear[a][d + a] = 1;
+  return {{"bulk", described(energy_shares(response, contact, {bulk}))},
+          {"shear", described(energy_shares(response, contact, shear))}};
+}
+
+// The moduli, what they would be if no grain left the affine motion, and where the energy sits.
+template <std::size_t N>
+void add_response(Json& section, const ElasticResponse<N>& response, const std::vector<bool>& contact) {
+  const Json values = described(response.tensor), affine = described(response.affine);
+  for (const auto& [key, value] : values.items()) section[key] = value;
+  section["affine"] = affine;
+  const auto over = [&](const char* key) {
+    const double held = affine[key];
+    return held > 0 ? Json(values[key].template get<double>() / held) : Json(nullptr);
+  };
+  section["over_affine"] = {{"bulk", over("bulk")}, {"shear", over("shear")}};
+  section["energy"] = energy_json(response, contact);
+}
+
+std::vector<bool> contacts_of(const LinkNetwork& network) {
+  std::vector<bool> contact(network.links(), true);  // an overlap of triangles is one
+  for (std::size_t l = 0; l < network.packing.links.size(); ++l)
+    contact[l] = network.packing.links[l].kind != LinkKind::distant;
+  return contact;
+}
+std::vector<bool> contacts_of(const SphereNetwork& network) {
+  std::vector<bool> contact;
+  for (const Link<3>& link : network.packing.links) contact.push_back(link.kind != LinkKind::distant);
+  return contact;
+}
+
 std::vector<SphereStiffness> sphere_stiffness(const AnalysisInput& input, const AnalysisOptions& options) {
   if (input.spheres_state) return by_link(*input.packing_3d, input.spheres_state->law);
   return by_link(*input.packing_3d, network_stiffness(*input.packing_3d, options.stiffness));
@@ -150,8 +197,7 @@ Json moduli_of_spheres(const AnalysisInput& input, const AnalysisOptions& option
   const ExactRank rank = exact_rank(network, law, false);
   Json section = {{"tensor", nullptr}, {"floppy", rank.mechanisms > 0}, {"explanation", explain_floppy(rank)}};
   try {
-    const Json values = described(elastic_moduli(network, law, sphere_stiffness(input, options)));
-    for (const auto& [key, value] : values.items()) section[key] = value;
+    add_response(section, elastic_response(network, law, sphere_stiffness(input, options)), contacts_of(network));
   } catch (const FactorisationFailed& e) {
     section["failed"] = e.what();
   }
@@ -180,8 +226,7 @@ Json moduli_section(const AnalysisInput& input, const AnalysisOptions& options) 
   const ExactRank rank = exact_rank(network, network_law, false);
   Json section = {{"tensor", nullptr}, {"floppy", rank.mechanisms > 0}, {"explanation", explain_floppy(rank)}};
   try {
-    const Json values = described(elastic_moduli(network, network_law, law));
-    for (const auto& [key, value] : values.items()) section[key] = value;
+    add_response(section, elastic_response(network, network_law, law), contacts_of(network));
   } catch (const FactorisationFailed& e) {
     section["failed"] = e.what();
   }
