@@ -44,7 +44,8 @@ using SphereModuli = std::array<std::array<double, 6>, 6>;
 SphereModuli elastic_moduli(const SphereNetwork& network, NetworkLaw law,
                             const std::vector<SphereStiffness>& stiffness);
 
-// As of the plane: fixed cell, the `count` of smallest |omega| > 0.
+// As of the plane: diagonal of M; fixed cell, the `count` of smallest |omega| > 0.
+std::vector<double> dof_masses(const SphereNetwork& network, NetworkLaw law);
 VibrationModes vibration_modes(const SphereNetwork& network, NetworkLaw law,
                                const std::vector<SphereStiffness>& stiffness, int count, bool displacements);
 
