@@ -151,6 +151,7 @@ int analyze_command(int argc, char** argv) {
   if (table_path && (json_path || csv_directory))
     throw InputError("command line", 0, "--table", *table_path,
                      std::string("stands in place of the report; leave out ") + (json_path ? "--json" : "--csv"));
+  if (table_path == "-") throw InputError("command line", 0, "--table", "-", "names a file");
   FileRule rule;
   for (const std::string& path : arguments.inputs()) rule.reads("INPUT", path);
   rule.writes("--json", json_path.value_or(""));
