@@ -193,10 +193,10 @@ std::optional<std::string> refusal(const Takes& takes, const AnalysisInput& inpu
   if (!forces && takes.forces == Forces::needed) return "needs forces: this input has none";
   if (!forces && takes.forces == Forces::with_prestress && options.prestress)
     return "--prestress needs the forces of the links";
-  if (!input.has_law() && takes.forces == Forces::with_prestress && options.prestress && options.stiffness.empty())
-    return "--prestress needs the stiffness of the contacts in the units of their forces: --stiffness";
   if (input.packing_3d && takes.forces == Forces::with_prestress && options.prestress)
     return "--prestress is for packings in the plane";
+  if (!input.has_law() && takes.forces == Forces::with_prestress && options.prestress && options.stiffness.empty())
+    return "--prestress needs the stiffness of the contacts in the units of their forces: --stiffness";
   if (input.packing_3d && (takes.strains || (takes.stiffness && options.cell_free)) && input.spheres().any_held())
     return "strains the cell, and this one has walls in it that hold";
   if (input.triangles && takes.stiffness && !options.stiffness.empty()) return "--stiffness is for disks and spheres";

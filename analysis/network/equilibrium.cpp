@@ -90,8 +90,8 @@ constexpr double kBadBalance = 0.1;
 template <int D>
 Imbalance imbalance(const Packing<D>& packing) {
   Imbalance all;
-  for (const Link<D>& link : packing.links)
-    all.scale += std::abs(link.normal_force) / static_cast<double>(packing.links.size());
+  for (const Link<D>& link : packing.links) all.scale += std::abs(link.normal_force);
+  all.scale /= static_cast<double>(packing.links.size());
   const auto loads = net_loads(packing);
   for (std::size_t k = 0; k < loads.size(); ++k) {
     if (!is_free(packing.part, k)) continue;

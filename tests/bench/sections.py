@@ -2,7 +2,7 @@
 """Time and memory of every section of `analyze` on large packings: a dense state tiled K x K times, with its contacts and
 forces. One process a section, CPU seconds and peak memory of the whole command, reading included (row `info`: reading alone).
 
-    tests/bench/sections.py build/release/bin/isostat docs/measured/results/sections.csv [--tiles 3,9,27] [--limit SECONDS]
+    tests/bench/sections.py build/release/bin/isostat docs/measured/results/sections.csv [--tiles 3,9,27] [--only LIST] [--limit SECONDS]
 
 A section over the limit of CPU seconds is stopped; its row then has the limit, and `ended` 0. The exponent is that of
 seconds ~ grains^exponent from the size before. Without a limit the last size takes an hour, most of it in modes and dacf.
@@ -71,6 +71,7 @@ def main():
     arguments.add_argument("program")
     arguments.add_argument("output")
     arguments.add_argument("--tiles", default="3,9,27")
+    arguments.add_argument("--only", default=",".join(SECTIONS))
     arguments.add_argument("--limit", type=int, default=0)
     given = arguments.parse_args()
     os.environ.setdefault("OMP_NUM_THREADS", "1")
@@ -87,7 +88,7 @@ def main():
             tiled = f"{folder}/tiled.h5"
             subprocess.run([given.program, "convert", f"{folder}/tiled.csv", "--box",
                             ",".join(f"{k * edge:.17g}" for edge in cell), "-o", tiled], check=True)
-            for section in SECTIONS:
+            for section in given.only.split(","):
                 command = [given.program, "info", tiled] if section == "info" else [
                     given.program, "analyze", tiled, "--only", section, "--json", f"{folder}/report.json"]
                 ended, seconds, memory = measured(command, given.limit)
