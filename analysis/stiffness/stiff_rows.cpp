@@ -7,7 +7,7 @@
 namespace isostat {
 namespace {
 
-constexpr std::int64_t kMostDenseDofs = 10000;  // of --modes all: 5 GB, and an hour
+constexpr std::int64_t kMostDenseDofs = 10000;  // of --modes all: 2.5 GB, and half a CPU hour
 
 }  // namespace
 
