@@ -175,6 +175,19 @@ void add_scales(Json& json, const State<TriangleGrains>& state) {
                     {"omega_max", dt > 0 ? Json(state.scene.step.fraction / dt) : Json()}};
 }
 
+// A packing that no run has made: converted from a file that knows no scene (and a law only of triangles).
+bool foreign(const State<Disks>& state) { return !(state.law.normal_stiffness > 0); }
+bool foreign(const State<Spheres>& state) { return state.law == SphereLaw{}; }
+bool foreign(const State<TriangleGrains>& state) { return state.scene.stages.empty(); }
+
+// The keys of the contract stay; what they would tell is not known.
+void remove_what_is_not_known(Json& json) {
+  json["seed"] = nullptr;
+  json["scene"] = Json::object();
+  if (json["system"] != TriangleGrains::name) json["law"] = Json::object();
+  for (auto& value : json["scales"]) value = nullptr;
+}
+
 template <class System>
 Json info_json(const State<System>& state, const StateFile& file) {
   Json json;
@@ -189,6 +202,7 @@ Json info_json(const State<System>& state, const StateFile& file) {
   json["scene"] = scene_json(state.scene);
   json["law"] = law_json(state.law);
   add_scales(json, state);
+  if (foreign(state)) remove_what_is_not_known(json);
   json["provenance"] = {{"version", file.provenance.version},
                         {"compiler", file.provenance.compiler},
                         {"command", file.provenance.command}};

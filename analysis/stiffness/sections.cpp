@@ -11,6 +11,7 @@
 #include "analysis/stiffness/prestressed_modes.hpp"
 #include "analysis/stiffness/pseudo_inverse.hpp"
 #include "analysis/stiffness/sphere_stiffness.hpp"
+#include "analysis/stiffness/stiff_rows.hpp"
 #include "analysis/stiffness/stiffness_matrix.hpp"
 #include "analysis/stiffness/vibration.hpp"
 #include "dem/disks/at_rest.hpp"
@@ -19,7 +20,7 @@ namespace isostat {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr int kReportedModes = 20, kTabulatedModes = 100;
+constexpr int kTabulatedModes = 100;
 
 // Of a state of spheres each contact has its own: the means over contacts, and over distant links.
 Json mean_stiffness(const AnalysisInput& input) {
@@ -40,7 +41,7 @@ Json mean_stiffness(const AnalysisInput& input) {
           {"distant", mean(distant, gaps)}};
 }
 
-Json stiffness_of(const AnalysisInput& input, const AnalysisOptions& options) {
+Json stiffness_values(const AnalysisInput& input, const AnalysisOptions& options) {
   if (input.spheres_state) return mean_stiffness(input);
   if (input.packing_3d) {
     const UniformStiffness k = network_stiffness(*input.packing_3d, options.stiffness);
@@ -57,6 +58,16 @@ Json stiffness_of(const AnalysisInput& input, const AnalysisOptions& options) {
           {"tangential", law.tangential_stiffness},
           {"rolling", law.rolling_stiffness},
           {"distant", law.attraction_range > 0 ? Json(distant(law, 0).stiffness) : Json(nullptr)}};
+}
+
+// With the assumption that a packing without a law needs: results are proportional to it.
+Json stiffness_of(const AnalysisInput& input, const AnalysisOptions& options) {
+  Json json = stiffness_values(input, options);
+  if (!input.has_law())
+    json["assumed"] = options.stiffness.empty()
+                          ? "the packing brings no law, these are defaults; give its own by --stiffness"
+                          : "the packing brings no law, --stiffness gives it these";
+  return json;
 }
 
 std::string explain_floppy(const ExactRank& r) {
@@ -141,33 +152,11 @@ std::vector<bool> contacts_of(const SphereNetwork& network) {
   return contact;
 }
 
-std::vector<SphereStiffness> sphere_stiffness(const AnalysisInput& input, const AnalysisOptions& options) {
-  if (input.spheres_state) return by_link(*input.packing_3d, input.spheres_state->law);
-  return by_link(*input.packing_3d, network_stiffness(*input.packing_3d, options.stiffness));
-}
-
-// G with rows in which stiffness is diagonal, and that stiffness.
-struct StiffRows {
-  RigidityMatrix g;
-  std::vector<double> k;
-};
-StiffRows stiff_rows(const LinkNetwork& network, const AnalysisInput& input, const AnalysisOptions& options) {
-  RigidityMatrix g = rigidity_matrix(network, input.network_law(options), options.cell_free);
-  std::vector<double> k = row_stiffness(network, g, law_of(input, options));
-  return {std::move(g), std::move(k)};
-}
-StiffRows stiff_rows(const SphereNetwork& network, const AnalysisInput& input, const AnalysisOptions& options) {
-  RigidityMatrix g =
-      in_contact_frames(network, rigidity_matrix(network, input.network_law(options), options.cell_free));
-  std::vector<double> k = row_stiffness(g, sphere_stiffness(input, options));
-  return {std::move(g), std::move(k)};
-}
-
 template <class Network>
 Json stiffness_of_network(const Network& network, const AnalysisInput& input, const AnalysisOptions& options) {
   const NetworkLaw network_law = input.network_law(options);
   const ExactRank rank = exact_rank(network, network_law, options.cell_free);
-  const auto [g, k] = stiff_rows(network, input, options);
+  const auto [g, k] = stiff_rows(input, options);
   const bool definite = std::all_of(k.begin(), k.end(), [](double v) { return v > 0; });
 
   Json section{{"positive_definite", nullptr}, {"inertia", nullptr}, {"stiffness", stiffness_of(input, options)}};
@@ -205,12 +194,6 @@ Json moduli_of_spheres(const AnalysisInput& input, const AnalysisOptions& option
   return section;
 }
 
-VibrationModes modes_of(const AnalysisInput& input, const AnalysisOptions& options, int count) {
-  const NetworkLaw law = input.network_law(options);
-  if (input.packing_3d) return vibration_modes(input.spheres(), law, sphere_stiffness(input, options), count, false);
-  return vibration_modes(input.network(), law, law_of(input, options), count, false);
-}
-
 }  // namespace
 
 Json stiffness_section(const AnalysisInput& input, const AnalysisOptions& options) {
@@ -232,7 +215,8 @@ Json moduli_section(const AnalysisInput& input, const AnalysisOptions& options) 
   }
   section["stiffness"] = stiffness_of(input, options);
   // Friction between triangles has no geometric term here.
-  if (read_forces(input).known && !(input.triangles && network_law == NetworkLaw::friction)) {
+  const bool own_units = input.has_law() || !options.stiffness.empty();  // forces in those of the stiffness
+  if (own_units && read_forces(input).known && !(input.triangles && network_law == NetworkLaw::friction)) {
     try {
       const TangentModuli tangent = tangent_moduli(network, network_law, law);
       section["with_geometric_term"] = described(tangent.tensor);
@@ -247,17 +231,19 @@ Json moduli_section(const AnalysisInput& input, const AnalysisOptions& options) 
 Json modes_section(const AnalysisInput& input, const AnalysisOptions& options) {
   Json section{{"omega", nullptr}};
   try {
-    const VibrationModes modes = modes_of(input, options, kReportedModes);
+    const VibrationModes modes = modes_of(input, options, mode_count(input, options), false);
     section["omega"] = modes.omega;
+    section["participation"] = modes.participation;
     section["zero_modes"] = modes.zero_modes;
     section["converged"] = modes.converged;
   } catch (const FactorisationFailed& e) {
     section["reason"] = e.what();
   }
+  section["stiffness"] = stiffness_of(input, options);
   if (!options.prestress) return section;
   try {
-    const PrestressedModes modes =
-        prestressed_modes(input.network(), input.network_law(options), law_of(input, options), kReportedModes);
+    const PrestressedModes modes = prestressed_modes(input.network(), input.network_law(options),
+                                                     law_of(input, options), mode_count(input, options));
     Json omega_squared = Json::array();
     for (const auto& v : modes.omega_squared) omega_squared.push_back({v.real(), v.imag()});
     section["with_geometric_term"] = {
@@ -272,10 +258,12 @@ Json modes_section(const AnalysisInput& input, const AnalysisOptions& options) {
 }
 
 std::vector<Table> modes_tables(const AnalysisInput& input, const AnalysisOptions& options) {
-  const VibrationModes modes = modes_of(input, options, kTabulatedModes);
-  Table density{"modes.density", {"omega", "modes_below"}, {}};
+  if (!options.modes) return {};  // the report has them all
+  const VibrationModes modes = modes_of(input, options, std::max(*options.modes, kTabulatedModes), false);
+  Table density{"modes.density", {"omega", "modes_below", "participation"}, {}};
   for (std::size_t k = 0; k < modes.omega.size(); ++k)
-    density.rows.push_back({modes.omega[k], static_cast<double>(modes.zero_modes) + static_cast<double>(k) + 1});
+    density.rows.push_back(
+        {modes.omega[k], static_cast<double>(modes.zero_modes) + static_cast<double>(k) + 1, modes.participation[k]});
   return {density};
 }
 

@@ -124,8 +124,7 @@ ElasticResponse<6> elastic_response(const SphereNetwork& network, NetworkLaw law
   return elastic_response(std::move(g), std::move(k), inverse, strain, network.packing.cell->measure());
 }
 
-VibrationModes vibration_modes(const SphereNetwork& network, NetworkLaw law,
-                               const std::vector<SphereStiffness>& stiffness, int count, bool displacements) {
+std::vector<double> dof_masses(const SphereNetwork& network, NetworkLaw law) {
   const Bodies<3>& bodies = network.packing.bodies;
   const int per_body = dof_layout(network, law, false).per_body;
   Vector mass;
@@ -136,17 +135,20 @@ VibrationModes vibration_modes(const SphereNetwork& network, NetworkLaw law,
     mass.insert(mass.end(), 3, bodies.mass[i]);
     if (per_body == 6) mass.insert(mass.end(), 3, bodies.inertia[i]);
   }
+  return mass;
+}
+
+VibrationModes vibration_modes(const SphereNetwork& network, NetworkLaw law,
+                               const std::vector<SphereStiffness>& stiffness, int count, bool displacements) {
+  const Vector mass = dof_masses(network, law);
   const RigidityMatrix g = in_contact_frames(network, rigidity_matrix(network, law, false));
   const Vector k = row_stiffness(g, stiffness);
   const std::vector<char> dependent = dependent_columns(network, law, false);
   VibrationModes modes;
-  modes.per_body = per_body;
+  modes.per_body = g.layout.per_body;
   modes.zero_modes = std::count(dependent.begin(), dependent.end(), 1);
-  LowestModes lowest =
-      lowest_modes(weighted_normal_matrix(g, k), dependent, std::move(mass), count, all_positive(k), displacements);
-  modes.converged = lowest.converged;
-  modes.displacement = std::move(lowest.vector);
-  for (const double lambda : lowest.value) modes.omega.push_back(lambda >= 0 ? std::sqrt(lambda) : -std::sqrt(-lambda));
+  take_modes(modes, lowest_modes(weighted_normal_matrix(g, k), dependent, mass, count, all_positive(k), true), mass,
+             displacements);
   return modes;
 }
 

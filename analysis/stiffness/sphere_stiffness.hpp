@@ -49,7 +49,8 @@ inline SphereModuli elastic_moduli(const SphereNetwork& network, NetworkLaw law,
   return elastic_response(network, law, stiffness).tensor;
 }
 
-// As of the plane: fixed cell, the `count` of smallest |omega| > 0.
+// As of the plane: diagonal of M; fixed cell, the `count` of smallest |omega| > 0.
+std::vector<double> dof_masses(const SphereNetwork& network, NetworkLaw law);
 VibrationModes vibration_modes(const SphereNetwork& network, NetworkLaw law,
                                const std::vector<SphereStiffness>& stiffness, int count, bool displacements);
 

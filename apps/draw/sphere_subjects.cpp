@@ -54,11 +54,13 @@ ForceOptions force_options(const Arguments& arguments, const Series& series, std
   options.convention = convention_of(arguments);
   options.scale = series.force;
   options.diameter = 2 * series.radius;
+  options.width_at_scale = kSphereWidthAtAP;  // without a law of a mean force
   if (series.law_known) {
     const bool by_attraction = series.states[k].law.attraction >= series.force;
     options.scale_label = by_attraction ? rich("`F`_{0}") : rich("`a`^{2}`P`");
-    options.width_at_scale = by_attraction ? kWidthAtF0 : kSphereWidthAtAP;
+    if (by_attraction) options.width_at_scale = kWidthAtF0;
   }
+  if (const auto given = arguments.number("--scale")) options.scale = *given, options.scale_label = {};
   if (!series.readings[k].cohesive) {
     const Coordination c = coordination<3>(series.states[k].packing, series.readings[k]);
     options.rattler.assign(c.rattler.begin(), c.rattler.end());

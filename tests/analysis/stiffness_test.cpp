@@ -211,6 +211,43 @@ TEST(Vibration, PairOfDisks) {
   const double sliding = std::sqrt(2 * (inverse_mass + li * li / p.bodies.inertia[0] + lj * lj / p.bodies.inertia[1]));
   EXPECT_NEAR(modes.omega[0], std::min(normal, sliding), 1e-12);
   EXPECT_NEAR(modes.omega[1], std::max(normal, sliding), 1e-12);
+  // Along the normal m_i v_i = -m_j v_j: shares of energy are as the other's mass.
+  const std::size_t along = normal < sliding ? 0 : 1;
+  const double share = p.bodies.mass[1] / (p.bodies.mass[0] + p.bodies.mass[1]);
+  EXPECT_NEAR(modes.participation[along], 1 / (2 * (share * share + (1 - share) * (1 - share))), 1e-12);
+}
+
+// All modes of a network that Lanczos would take, against a dense solver of the generalised problem.
+TEST(Vibration, AllModesAreThoseOfTheDenseMatrix) {
+  const Packing<2> p = network(2, 4.4, 12);
+  const DiskLaw law = default_network_law();
+  const VibrationModes modes = vibration_modes(p, NetworkLaw::friction, law, kAllModes, true);
+  const RigidityMatrix g = rigidity_matrix(p, NetworkLaw::friction, false);
+  ASSERT_GT(g.columns(), 3 * kDenseSize / 2);
+  const auto k = row_stiffness(p, g, law);
+  const Eigen::MatrixXd dense_g = dense(g);
+  const Eigen::MatrixXd stiffness =
+      dense_g.transpose() * Eigen::Map<const Eigen::VectorXd>(k.data(), std::ssize(k)).asDiagonal() * dense_g;
+  const std::vector<double> m = dof_masses(p, NetworkLaw::friction);
+  const Eigen::VectorXd mass = Eigen::Map<const Eigen::VectorXd>(m.data(), std::ssize(m));
+  const Eigen::VectorXd root = mass.cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(root.asDiagonal() * stiffness * root.asDiagonal());
+  ASSERT_EQ(std::ssize(modes.omega) + modes.zero_modes, g.columns());
+  const double largest = solver.eigenvalues().maxCoeff();
+  for (Eigen::Index i = 0; i < std::ssize(modes.omega); ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    EXPECT_NEAR(modes.omega[n] * modes.omega[n], solver.eigenvalues()[modes.zero_modes + i], 1e-12 * largest);
+    const Eigen::Map<const Eigen::VectorXd> u(modes.displacement[n].data(), g.columns());
+    EXPECT_NEAR(u.dot(mass.cwiseProduct(u)), 1, 1e-12);
+    EXPECT_LT((stiffness * u - modes.omega[n] * modes.omega[n] * mass.cwiseProduct(u)).cwiseAbs().maxCoeff(),
+              1e-11 * largest);
+    double squares = 0;
+    for (Eigen::Index b = 0; b < g.columns(); b += 3) {
+      const double share = u.segment(b, 3).dot(mass.segment(b, 3).cwiseProduct(u.segment(b, 3)));
+      squares += share * share;
+    }
+    EXPECT_NEAR(modes.participation[n], 3 / (static_cast<double>(g.columns()) * squares), 1e-12);
+  }
 }
 
 TEST(SoftModes, SmallestSingularValueOfAnOverlappingTriangle) {
