@@ -13,6 +13,7 @@
 #include "dem/files/state_seal.hpp"
 #include "dem/scene/keys.hpp"
 #include "dem/scene/text.hpp"
+#include "dem/triangles/time_step.hpp"
 
 namespace isostat {
 namespace {
@@ -172,7 +173,7 @@ void add_scales(Json& json, const State<Spheres>& state) {
 void add_scales(Json& json, const State<TriangleGrains>& state) {
   const double dt = state.time_step;
   json["scales"] = {{"dt", dt > 0 ? Json(dt) : Json()},
-                    {"omega_max", dt > 0 ? Json(state.scene.step.fraction / dt) : Json()}};
+                    {"omega_max", dt > 0 ? Json(triangle_step_fraction(state.scene) / dt) : Json()}};
 }
 
 // A packing that no run has made: converted from a file that knows no scene (and a law only of triangles).

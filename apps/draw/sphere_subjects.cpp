@@ -27,7 +27,8 @@ struct Series {
 Series series_of(const Arguments& arguments, const std::vector<AnalysisInput>& inputs) {
   Series series;
   for (const AnalysisInput& input : inputs) {
-    State<Spheres> state = input.spheres_state.value_or(State<Spheres>{});
+    State<Spheres> state;
+    if (input.spheres_state) state = *input.spheres_state;
     static_cast<Packing<3>&>(state.packing) = *input.packing_3d;
     if (state.packing.bodies.size() == 0) throw InputError(input.path, 0, "", "", "has no grains to draw");
     series.readings.push_back(read_forces(input));

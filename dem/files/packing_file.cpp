@@ -42,15 +42,16 @@ PeriodicCell<D> cell_of(const std::vector<double>& edges) {
   return cell;
 }
 
-// Gives the packing the cell of --box, unless it has its own.
+// Gives the packing the cell that the user wants, unless it has its own.
 template <int D>
 void set_box(Packing<D>& packing, const std::string& path, const PackingReading& reading) {
   if (!reading.box) return;
   std::string given;
   for (const double edge : *reading.box) given += (given.empty() ? "" : ",") + std::to_string(edge);
-  if (packing.cell) throw InputError(path, 0, "--box", given, "the file has its own cell; leave --box out");
+  if (packing.cell)
+    throw InputError(path, 0, reading.box_name, given, "the file has its own cell; leave " + reading.box_name + " out");
   if (reading.box->size() != D)
-    throw InputError(path, 0, "--box", given, "needs " + std::to_string(D) + " edges for this file");
+    throw InputError(path, 0, reading.box_name, given, "needs " + std::to_string(D) + " edges for this file");
   packing.cell = cell_of<D>(*reading.box);
 }
 
@@ -101,7 +102,8 @@ void read_network_into(PackingFile& file, const std::string& path, const Packing
 
 void read_triangles_into(PackingFile& file, const std::string& path, const PackingReading& reading) {
   std::optional<Vec2> box;
-  if (reading.box && reading.box->size() != 2) throw InputError(path, 0, "--box", "", "needs 2 edges for this file");
+  if (reading.box && reading.box->size() != 2)
+    throw InputError(path, 0, reading.box_name, "", "needs 2 edges for this file");
   if (reading.box) box = Vec2{{(*reading.box)[0], (*reading.box)[1]}};
   TriangleNetworkFile network = read_triangle_network(path, box);
   file.triangles = foreign_state(std::move(network.packing));
@@ -129,6 +131,7 @@ void read_tables_into(PackingFile& file, const TextTable& grains, const std::opt
   check_cell(packing, grains.path);
   require_lengths(packing.cell, packing.bodies, grains.path, reading.gap_tolerance);
   file.links_given = links.has_value();
+  file.densities_given = grains.column("density").has_value() && !grains.column("m");
   if (links)
     packing.links = read_links<D>(*links, packing);
   else
@@ -212,7 +215,8 @@ PackingFile read_packing(const std::string& given_path, const PackingReading& re
   file.format = sniff_packing_format(path);
   switch (file.format) {
     case PackingFormat::state:
-      if (reading.box) throw InputError(path, 0, "--box", "", "a state has its own cell; leave --box out");
+      if (reading.box)
+        throw InputError(path, 0, reading.box_name, "", "a state has its own cell; leave " + reading.box_name + " out");
       std::visit(
           [&](auto&& state) {
             require_lengths(state.packing.cell, state.packing.bodies, path, reading.gap_tolerance);

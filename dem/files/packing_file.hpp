@@ -20,11 +20,13 @@ struct PackingFile {
   std::optional<State<TriangleGrains>> triangles;  // of a file of triangles; `state` then has no grains
   std::vector<Triangle> corners;                   // of the triangles, anticlockwise: of a network as its file has them
   bool links_given = false;                        // the file lists its links; false: found by touching
+  bool densities_given = false;                    // the file has a column density
 };
 
 struct PackingReading {
   std::optional<double> gap_tolerance;  // [length of the file] for finding contacts; none: see dem/state/touching.hpp
-  std::optional<std::vector<double>> box;  // edges of the cell of a file that has none (--box)
+  std::optional<std::vector<double>> box;  // edges of the cell of a file that has none
+  std::string box_name = "--box";          // by which the user gave it
 };
 
 // Throws InputError if the file cannot be read, is of no known format, is faulty, or has a cell and is given another.

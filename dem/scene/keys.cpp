@@ -135,8 +135,9 @@ std::vector<SceneKey> common_keys() {
        .unit = "V*",
        .range = not_negative,
        .systems = of_disks,
-       .meaning =
-           "Root mean square velocity drawn at the start of the stage, V* = sqrt(F0 D0 / m); 0: velocities are kept."},
+       .meaning = "Root mean square velocity drawn at the start of the stage, V* = sqrt(F0 D0 / m), without cohesion a "
+                  "sqrt(P / m) "
+                  "with P of the first stage that imposes a stress, or a/T0 if none does; 0: velocities are kept."},
       {.name = "stage.velocity_of",
        .field = in<&S::stages, &StageScene::velocity_of>,
        .choices = names(kVelocityOfNames),

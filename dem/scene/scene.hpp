@@ -31,7 +31,7 @@ inline constexpr std::array<std::string_view, 2> kIntegratorNames{"verlet", "gea
 // [step]: of disks dt = fraction * sqrt(m_max / K_N), of triangles dt = fraction / omega_max of the smallest grain, of
 // spheres fraction * sqrt(m / k) of the smallest.
 struct StepScene {
-  double fraction = 0.06;  // c [-]
+  std::optional<double> fraction;  // c [-]; absent: the default of the system, or what its smallest grains bear
   Integrator integrator = Integrator::verlet;
   friend bool operator==(const StepScene&, const StepScene&) = default;
 };
@@ -94,7 +94,8 @@ struct StageScene {
   // Of one direction, compression positive [F0/a], [1/T0]; the third in space only.
   std::optional<double> stress_1, stress_2, stress_3;
   std::optional<double> strain_rate_1, strain_rate_2, strain_rate_3;
-  double velocity = 0.0;  // V0 [V* = sqrt(F0 D0 / m)] rms velocity drawn at the start; 0: keep
+  double velocity =
+      0.0;  // V0 [V*, velocity_unit() of dem/solver/agitation.hpp] rms velocity drawn at the start; 0: keep
   VelocityOf velocity_of = VelocityOf::vector;
   double max_strain_rate = 0.05;           // [1/T0] cap of the cell's strain rate; 0: no cap
   std::optional<double> max_edge_speed;    // [a/T0] cap of |Ldot| of each edge that a stress controls; absent: none

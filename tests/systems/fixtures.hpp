@@ -78,6 +78,11 @@ struct Fixture<Disks> {
           if (room == "no cell") v.state.packing.cell.reset(), v.state.cell_motion = {};
           list.push_back(std::move(v));
         }
+    Variant<Disks> unlike = list[6];
+    unlike.name += ", unlike densities";
+    for (std::size_t k = 0; k < unlike.state.packing.bodies.size(); k += 3)
+      unlike.state.packing.bodies.mass[k] *= 4, unlike.state.packing.bodies.inertia[k] *= 4;
+    list.push_back(std::move(unlike));
     return list;
   }
 

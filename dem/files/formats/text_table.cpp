@@ -52,6 +52,7 @@ class NumberReader {
     fault(line_of(row), table_.columns[col], table_.cell(row, col), std::move(rule));
   }
   int line_of(std::size_t row) const { return table_.first_line + static_cast<int>(row); }
+  std::vector<Fault>& faults() { return faults_; }
   void throw_faults() {
     if (!faults_.empty()) throw InputError(std::move(faults_));
   }
@@ -140,6 +141,15 @@ TextTable parse_csv(std::string_view text, const std::string& path) {
   return table;
 }
 
+std::vector<double> real_column(const TextTable& table, std::string_view name, std::vector<Fault>& faults) {
+  NumberReader in(table);
+  const auto at = table.column(name);
+  std::vector<double> values;
+  for (std::size_t row = 0; at && row < table.rows(); ++row) values.push_back(in.real(row, at, 0));
+  for (Fault& fault : in.faults()) add_fault(faults, std::move(fault));
+  return values;
+}
+
 int grain_dimension(const TextTable& grains) {
   const auto z = grains.column("z");
   if (!z) return 2;
@@ -158,6 +168,8 @@ Bodies<D> read_grains(const TextTable& grains) {
   const Columns id = in.find({"id"}, true), r = in.find({"r"}, true), x = in.find(with_axes<D>(""), true);
   const Columns v = in.find(with_axes<D>("v"), false), m = in.find({"m"}, false);
   const Columns w = D == 2 ? in.find({"omega"}, false) : in.find(with_axes<3>("w"), false);
+  Columns rho = in.find({"density"}, false);
+  if (m[0]) rho[0].reset();  // it says the same in other words
   in.throw_faults();
   if (grains.rows() == 0) in.fault(grains.first_line, "", "", "the table has no grain");
 
@@ -178,9 +190,12 @@ Bodies<D> read_grains(const TextTable& grains) {
     set_spin(in, row, w, b.spin[row]);
     b.mass[row] = in.real(row, m[0], 0);
     if (m[0] && !(b.mass[row] > 0)) in.cell_fault(row, *m[0], "must be positive");
+    const double density = in.real(row, rho[0], 1);
+    if (!(density > 0)) in.cell_fault(row, *rho[0], "must be positive");
+    if (rho[0]) b.mass[row] = density * std::pow(2 * b.radius[row], D);
   }
   in.throw_faults();
-  set_masses(b, m[0].has_value());
+  set_masses(b, m[0] || rho[0]);
   return b;
 }
 

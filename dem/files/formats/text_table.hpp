@@ -24,11 +24,15 @@ struct TextTable {
 // Header line of names and comma-separated rows. Throws InputError for rows of another length.
 TextTable parse_csv(std::string_view text, const std::string& path);
 
+// A column of finite numbers; empty if there is none of this name. Cells that are no such numbers become faults.
+std::vector<double> real_column(const TextTable& table, std::string_view name, std::vector<Fault>& faults);
+
 // Dimension of a table of grains: 3 if it has a column z that is not zero throughout, else 2.
 int grain_dimension(const TextTable& grains);
 
-// Columns id, x, y(, z), r; optional vx, vy(, vz), omega (3D wx, wy, wz), m. Other columns are ignored. Without m the
-// largest grain gets mass 1 and all the same density. Throws InputError listing the faults with their lines.
+// Columns id, x, y(, z), r; optional vx, vy(, vz), omega (3D wx, wy, wz), and m, or density. Other columns are ignored.
+// A density is over that of a grain of diameter and mass 1; without either the largest grain gets mass 1 and all the
+// same density. Throws InputError listing the faults with their lines.
 template <int D>
 Bodies<D> read_grains(const TextTable& grains);
 
