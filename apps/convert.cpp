@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <optional>
 
 #include "apps/arguments.hpp"
 #include "apps/commands.hpp"
@@ -72,6 +73,8 @@ State<System> moved(const State<System>& base, const std::string& input, Packing
   const PackingFile file = read_packing(input, reading);
   if (file.format != PackingFormat::csv && file.format != PackingFormat::dump)
     throw InputError(input, 0, "--from", "", "takes grains from a table of text or a LAMMPS dump");
+  if (!file.ids_given)
+    throw InputError(input, 0, "id", "", "column is missing: grains go into a state by their ids (--from)");
   const MovedGrains brings{file.velocities_given, file.spins_given, file.links_given};
   if constexpr (System::dimension == 2) {
     if (file.packing_3d) throw InputError(input, 0, "--from", "", "is in space, and the state is in the plane");
@@ -123,11 +126,23 @@ void write_all(const WrittenFiles& files, const std::vector<std::string>& inputs
   write_files_atomically(files);
 }
 
-AnyState state_of(PackingFile file) {
-  if (file.triangles) return std::move(*file.triangles);
-  if (file.spheres) return std::move(*file.spheres);
-  if (file.packing_3d) return foreign_state(std::move(*file.packing_3d));
-  return std::move(file.state);
+AnyState state_of(PackingFile file, std::optional<long long> first_id) {
+  AnyState any = std::move(file.state);
+  if (file.triangles)
+    any = std::move(*file.triangles);
+  else if (file.spheres)
+    any = std::move(*file.spheres);
+  else if (file.packing_3d)
+    any = foreign_state(std::move(*file.packing_3d));
+  if (first_id)
+    std::visit(
+        [first_id](auto& state) {
+          std::vector<std::int64_t>& id = state.packing.bodies.id;
+          const std::int64_t before = id.empty() ? 0 : *std::min_element(id.begin(), id.end());
+          for (std::int64_t& i : id) i += *first_id - before;
+        },
+        any);
+  return any;
 }
 
 int convert_triangles(const PackingFile& file, const std::string& input, const std::string& output) {
@@ -146,12 +161,16 @@ int convert_triangles(const PackingFile& file, const std::string& input, const s
   return exit_done;
 }
 
-int convert_one(const std::string& input, const PackingReading& reading, const std::string& output) {
+int convert_one(const std::string& input, const PackingReading& reading, const std::string& output,
+                std::optional<long long> first_id) {
   PackingFile file = read_packing(input, reading);
   if (!file.state.packing.beams.empty() && !output.ends_with(".net") && !output.ends_with(".vtp"))
     throw InputError(input, 0, "-o", output, "beams are kept by .net files only (and drawn in .vtp)");
-  if (file.triangles) return convert_triangles(file, input, output);
-  const AnyState any = state_of(std::move(file));
+  if (file.triangles) {
+    if (first_id) throw InputError(input, 0, "--first-id", "", "is for disks and spheres");
+    return convert_triangles(file, input, output);
+  }
+  const AnyState any = state_of(std::move(file), first_id);
   if (const auto* spheres = std::get_if<State<Spheres>>(&any)) {
     if (output.ends_with(".h5"))
       write_state(*spheres, output);
@@ -167,12 +186,13 @@ int convert_one(const std::string& input, const PackingReading& reading, const s
   return exit_done;
 }
 
-int convert_film(const std::vector<std::string>& inputs, const PackingReading& reading, const std::string& output) {
+int convert_film(const std::vector<std::string>& inputs, const PackingReading& reading, const std::string& output,
+                 std::optional<long long> first_id) {
   if (!output.ends_with(".xyz") && !output.ends_with(".dump") && !output.ends_with(".pvd"))
     throw InputError("command line", 0, "-o", output, "of several inputs must end in .xyz, .dump or .pvd: a film");
   std::vector<AnyState> frames;
   for (const std::string& input : inputs) {
-    frames.push_back(state_of(read_packing(input, reading)));
+    frames.push_back(state_of(read_packing(input, reading), first_id));
     if (frames.back().index() != frames.front().index())
       throw InputError(input, 0, "INPUT", "", "is of another system than " + inputs.front());
   }
@@ -192,6 +212,7 @@ int convert_command(int argc, char** argv) {
        {"--contacts", "FILE", "contacts of the grains: a table of text, or a dump local of LAMMPS"},
        {"--length", "LENGTH", "length of the file that becomes the unit, mostly the largest diameter"},
        {"--force", "FORCE", "force of the file that becomes the unit"},
+       {"--first-id", "N", "number the grains from N on: LAMMPS takes no 0"},
        {"--from", "STATE", "put positions and velocities of INPUT into this state; the rest stays"}},
       {"INPUT... -o OUTPUT",
        "Translates a packing; a foreign one (.csv, .dump, .net) becomes a state with .h5. Several make a film (.pvd, "
@@ -205,6 +226,7 @@ int convert_command(int argc, char** argv) {
   if (!known && !from)
     throw InputError("command line", 0, "-o", output, "must end in .h5, .vtp, .pvd, .dump, .xyz, .net or .csv");
   const PackingReading reading = reading_of(arguments);
+  const auto first_id = arguments.integer("--first-id", 0, 1000000000);
 
   FileRule rule;
   for (const std::string& input : inputs) rule.reads("INPUT", input);
@@ -215,9 +237,11 @@ int convert_command(int argc, char** argv) {
   if (inputs.size() > 1) {
     if (from || !reading.contacts.empty())
       throw InputError("command line", 0, from ? "--from" : "--contacts", "", "takes one INPUT");
-    return convert_film(inputs, reading, output);
+    return convert_film(inputs, reading, output, first_id);
   }
-  return from ? put_into_state(*from, inputs[0], reading, output) : convert_one(inputs[0], reading, output);
+  if (!from) return convert_one(inputs[0], reading, output, first_id);
+  if (first_id) throw InputError("command line", 0, "--first-id", "", "with --from the ids are those of the state");
+  return put_into_state(*from, inputs[0], reading, output);
 }
 
 }  // namespace isostat

@@ -1,5 +1,6 @@
 #include "dem/files/hand_over.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
@@ -26,13 +27,31 @@ std::unordered_map<std::int64_t, std::size_t> places(const Bodies<D>& bodies, st
 
 std::string text(std::int64_t id) { return std::to_string(id); }
 
+template <int D>
+std::int64_t first_id(const Bodies<D>& bodies, std::size_t count) {
+  return count == 0 ? 0 : *std::min_element(bodies.id.begin(), bodies.id.begin() + static_cast<std::ptrdiff_t>(count));
+}
+
+// By how much the ids of the packing are larger: 0 unless they fit the state's only with another first number.
+template <int D>
+std::int64_t id_shift(const Packing<D>& state, const Packing<D>& moved) {
+  const std::size_t count = moved.bodies.size();
+  if (count != state.grains()) return 0;
+  const auto there = places(moved.bodies, count);
+  const std::int64_t shift = first_id(moved.bodies, count) - first_id(state.bodies, count);
+  for (std::size_t k = 0; k < count; ++k)
+    if (!there.contains(state.bodies.id[k] + shift)) return 0;
+  return shift;
+}
+
 // Of each grain of the state its place in the packing.
 template <int D>
 std::vector<std::size_t> matched(const Packing<D>& state, const Packing<D>& moved, const std::string& path) {
   const auto there = places(moved.bodies, moved.bodies.size());
+  const std::int64_t shift = id_shift(state, moved);
   std::vector<std::size_t> place;
   for (std::size_t k = 0; k < state.grains(); ++k) {
-    const auto found = there.find(state.bodies.id[k]);
+    const auto found = there.find(state.bodies.id[k] + shift);
     if (found == there.end())
       throw InputError(path, 0, "id", text(state.bodies.id[k]), "a grain of the state is missing here (--from)");
     const double wanted = state.bodies.radius[k], is = moved.bodies.radius[found->second];
@@ -109,11 +128,11 @@ State<System> hand_over(const State<System>& base, const Packing<System::dimensi
       throw InputError(
           path, 0, "--from", "",
           "the state has walls, and contacts with walls are in no list of contacts; leave the contacts out");
-    const auto own = places(packing.bodies, place.size());
+    std::vector<std::int32_t> own(place.size());
+    for (std::size_t k = 0; k < place.size(); ++k) own[place[k]] = static_cast<std::int32_t>(k);
     packing.links = moved.links;
     for (Link<D>& l : packing.links)
-      for (std::int32_t* end : {&l.i, &l.j})
-        *end = static_cast<std::int32_t>(own.at(moved.bodies.id[static_cast<std::size_t>(*end)]));
+      for (std::int32_t* end : {&l.i, &l.j}) *end = own[static_cast<std::size_t>(*end)];
   } else if (!(state.time_step > 0)) {  // it was never in a run
     find_contacts<D>(packing, default_gap_tolerance(packing.bodies));
   } else {

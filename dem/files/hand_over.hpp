@@ -15,7 +15,8 @@ struct MovedGrains {
                        // pairs; of a state that was never in a run, by touching and without forces
 };
 
-// Grains go by their ids: both have the same ones, of the same radii to six digits (the state's stay). A run goes on
+// Grains go by their ids: both have the same ones, or all of the packing's are larger by one number; of the same radii
+// to six digits (the state's stay). A run goes on
 // from the result as from a packing that no solver has touched. Throws InputError naming the grain that does not fit,
 // and where contacts with walls would be lost.
 template <class System>

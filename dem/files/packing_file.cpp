@@ -167,7 +167,7 @@ void read_tables_into(PackingFile& file, const TextTable& grains, const BesideGr
   Packing<D> packing;
   GrainColumns columns;
   packing.bodies = read_grains<D>(grains, reading.columns, reading.radii, &columns);
-  file.velocities_given = columns.velocities, file.spins_given = columns.spins;
+  file.ids_given = columns.ids, file.velocities_given = columns.velocities, file.spins_given = columns.spins;
   if (beside.cell) {
     if (beside.cell->size() < D)
       throw InputError(grains.path, 0, "cell", "", "needs " + std::to_string(D) + " edges for these grains");

@@ -24,7 +24,7 @@ struct PackingFile {
   std::optional<State<TriangleGrains>> triangles;  // of a file of triangles; `state` then has no grains
   std::vector<Triangle> corners;                   // of the triangles, anticlockwise: of a network as its file has them
   bool links_given = false;                        // the file lists its links; false: found by touching
-  bool velocities_given = false, spins_given = false;  // of a table: it has the columns
+  bool ids_given = false, velocities_given = false, spins_given = false;  // of a table: it has the columns
 };
 
 struct PackingReading {

@@ -1,6 +1,7 @@
 // convert from outside: a state through text and back, to another engine and back, films.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -75,6 +76,13 @@ TEST_F(Convert, ThereAndBackAgain) {
     convert(file(text) + "--from" + file("s.snapshot0003.h5") + "-o" + file("found.h5"));
     EXPECT_EQ(hash("found.h5"), hash("s.snapshot0003.h5")) << text;
   }
+  // LAMMPS takes no grain 0.
+  convert(file("s.snapshot0003.h5") + "--first-id 1 -o" + file("one.dump"));
+  convert(file("one.dump") + "-o" + file("one.h5"));
+  const auto ids = read_state<Disks>(in_folder("one.h5")).packing.bodies.id;
+  EXPECT_EQ(*std::min_element(ids.begin(), ids.end()), 1);
+  convert(file("one.dump") + "--from" + file("s.snapshot0003.h5") + "-o" + file("back.h5"));
+  EXPECT_EQ(hash("back.h5"), hash("s.snapshot0003.h5"));
   // The run goes on from it.
   convert(file("t.csv") + "--from" + file("s.snapshot0003.h5") + "-o" + file("on.h5.partial"));
   ASSERT_EQ(run("pack" + file("s.toml") + "-o" + file("on.h5") + "--resume --set output.snapshot_interval=1.5").code,
@@ -195,6 +203,8 @@ TEST_F(Convert, BadUsageSaysWhatIsWrong) {
            {file("s.snapshot0001.h5") + "--from" + file("s.h5") + to, "takes grains from a table of text"},
            {file("g.csv") + "--from" + file("s.h5") + "--gap-tolerance 1" + to, "found by the law of the state"},
            {file("fewer.dump") + "--from" + file("s.h5") + to, "a grain of the state is missing here"},
+           {file("g.csv") + "--from" + file("s.h5") + to, "id: column is missing: grains go into a state by their ids"},
+           {file("s.h5") + "--first-id x" + to, "--first-id = x"},
            {file("wide.csv") + "--from" + file("s.h5") + to, "(--from)"}}) {
     const Outcome o = run("convert" + arguments);
     EXPECT_EQ(o.code, 2) << arguments;

@@ -108,8 +108,11 @@ TEST_F(ForeignTables, WhatIsNotUnderstoodIsToldWhatATableNeeds) {
   EXPECT_THAT(faults("Once upon a time\n"), HasSubstr("such a table begins with the names of its columns, x, y and r"));
   EXPECT_THAT(faults("x,y,r\n\n# a remark\n1,2,3\n1,2\n1,2,q\n"), HasSubstr("g.txt:5: 2 fields"));
   EXPECT_THAT(faults("x,y,r\n\n# a remark\n1,2,3\n1,2,q\n"), HasSubstr("g.txt:5: r = q: must be a finite number"));
-  reading_.contacts = write("c.txt", "particle1,particle2,fn\n1,2,3\n");
-  EXPECT_EQ(faults("x,y,r\n0,0,1\n2,0,1\n"), "accepted");
+  reading_.contacts = write("c.txt", "particle1,particle2,Fn\n1,2,3\n");
+  EXPECT_THAT(faults("x,y,r\n0,0,1\n2,0,1\n"), HasSubstr("c.txt:1: Fn: is a force that is not understood"));
+  reading_.columns = parse_column_names("N=Fn");
+  EXPECT_EQ(read_packing(write("g.txt", "x,y,r\n0,0,1\n2,0,1\n"), reading_).state.packing.links.at(0).normal_force, 3);
+  reading_.columns.clear();
   reading_.contacts = write("c.txt", "from,to,fn\n1,2,3\n");
   EXPECT_THAT(faults("x,y,r\n0,0,1\n2,0,1\n"),
               HasSubstr("c.txt:1: i: column is missing: a table of contacts needs i and j"));

@@ -114,6 +114,13 @@ std::optional<std::size_t> find_column(const TextTable& table, TableKind kind, c
   return std::nullopt;
 }
 
+std::optional<std::string> first_force(const TextTable& table) {
+  for (const std::string& column : table.columns)
+    if (const std::string name = plain(column); name.starts_with("f") || name.find("force") != std::string::npos)
+      return column;
+  return std::nullopt;
+}
+
 bool is_column_of(TableKind kind, const std::string& name) { return synonyms_of(kind, name) != nullptr; }
 
 std::string list_of_columns(const TextTable& table) {

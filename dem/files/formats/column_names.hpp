@@ -23,6 +23,9 @@ ColumnNames parse_column_names(const std::string& option);
 std::optional<std::size_t> find_column(const TextTable& table, TableKind kind, const std::string& name,
                                        const ColumnNames& named);
 
+// A column that by its name is a force: begins with f, or has the word in it.
+std::optional<std::string> first_force(const TextTable& table);
+
 // Whether a name of ours is one of this kind of table.
 bool is_column_of(TableKind kind, const std::string& name);
 

@@ -135,7 +135,7 @@ Bodies<D> read_grains(const TextTable& grains, const ColumnNames& named, const s
   const Columns id = in.find({"id"}), v = in.find(with_axes(D, "v")), m = in.find({"m"});
   const Columns w = D == 2 ? in.find({"omega"}) : in.find(with_axes(3, "w"));
   in.throw_faults();
-  if (columns) *columns = {all_there(v), all_there(w)};
+  if (columns) *columns = {all_there(id), all_there(v), all_there(w)};
   if (grains.rows() == 0) in.fault(grains.header_line, "", "", "the table has no grain");
 
   Bodies<D> b;
@@ -150,7 +150,8 @@ Bodies<D> read_grains(const TextTable& grains, const ColumnNames& named, const s
     if (no_size) {
       const auto radius = radii.find(b.id[row]);
       if (radius == radii.end())
-        in.fault(grains.lines[row], "id", std::to_string(b.id[row]), "the state has no such grain (--from)");
+        in.fault(grains.lines[row], "id", std::to_string(b.id[row]),
+                 "the state has no such grain, whose radius would be taken (--from)");
       else
         b.radius[row] = radius->second;
     } else {
@@ -191,6 +192,12 @@ std::vector<Link<D>> read_links(const TextTable& links, const Packing<D>& grains
   if (any_there(s) && !all_there(s))
     in.fault(links.header_line, "s1", "",
              "image shifts have a number for each axis: s1, s2" + std::string(D == 3 ? ", s3" : ""));
+  if (const auto force = first_force(links); force && !any_there(f) && !n[0])
+    in.fault(
+        links.header_line, *force, "",
+        "is a force that is not understood: convert --columns N=" + *force +
+            " if it acts along the line of centres, repulsion positive, and T=... for the other; or fx=..., fy=... "
+            "for the components of the force on j");
   if (any_there(f)) {
     if (!all_there(f))
       in.fault(links.header_line, "fx", "", std::string("a force is given whole: fx, fy") + (D == 3 ? ", fz" : ""));

@@ -14,7 +14,7 @@ namespace isostat {
 int grain_dimension(const TextTable& grains, const ColumnNames& named);
 
 struct GrainColumns {
-  bool velocities = false, spins = false;  // the table has them
+  bool ids = false, velocities = false, spins = false;  // the table has them
 };
 
 // Columns x, y(, z), r or d; optional id, vx, vy(, vz), omega (3D wx, wy, wz), m. Other columns are ignored. Without id
