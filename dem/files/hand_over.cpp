@@ -91,6 +91,8 @@ template <class System>
 void find_links(State<System>& state, const std::string& path) {
   const Bodies<System::dimension> as_given = state.packing.bodies;
   const std::size_t grains = state.packing.grains();
+  const auto stress = state.imposed_stress;
+  const auto motion = state.cell_motion;
   try {
     Solver<System>(state, {}).snapshot(state);
   } catch (const RunError& error) {
@@ -102,6 +104,7 @@ void find_links(State<System>& state, const std::string& path) {
     const std::size_t was = place.at(b.id[k]);
     b.velocity[k] = as_given.velocity[was], b.spin[k] = as_given.spin[was];
   }
+  state.imposed_stress = stress, state.cell_motion = motion;
   state.memory = {};
 }
 

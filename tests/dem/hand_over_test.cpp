@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "dem/disks/engine.hpp"
 #include "dem/disks/physical_hash.hpp"
 #include "dem/files/hand_over.hpp"
@@ -33,14 +36,35 @@ State<Disks> disks() {
 State<Spheres> spheres() { return after(oracle::random_state(oracle::RandomSpheres{.room = 0.6}), 200); }
 
 template <class System>
+double squares_of_springs(const State<System>& s) {
+  double sum = 0;
+  for (const auto& l : s.packing.links)
+    if constexpr (System::dimension == 2)
+      sum += l.tangential_force * l.tangential_force;
+    else
+      sum += dot(l.tangential_force, l.tangential_force);
+  return sum;
+}
+template <class System>
+std::vector<double> sorted_normal_forces(const State<System>& s) {
+  std::vector<double> all;
+  for (const auto& l : s.packing.links) all.push_back(l.normal_force);
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+template <class System>
 void expect_back_unchanged(const State<System>& s) {
   ASSERT_GT(s.packing.links.size(), 20u);
-  const MovedGrains none, all{true, true, true};
-  for (const MovedGrains& brings : {none, all}) {
-    const State<System> back = hand_over<System>(s, s.packing, brings, "moved");
-    EXPECT_EQ(physical_hash(back), physical_hash(s)) << brings.links;
-    EXPECT_TRUE(back.memory.half_velocity.empty());
-  }
+  const State<System> given = hand_over<System>(s, s.packing, {true, true, true}, "moved");
+  EXPECT_EQ(physical_hash(given), physical_hash(s));
+  EXPECT_TRUE(given.memory.half_velocity.empty());
+  // Found by the law: the same but for the rounding of springs at their limits.
+  const State<System> found = hand_over<System>(s, s.packing, {}, "moved");
+  EXPECT_EQ(sorted_normal_forces(found), sorted_normal_forces(s));
+  ASSERT_GT(squares_of_springs(s), 0);
+  EXPECT_NEAR(squares_of_springs(found), squares_of_springs(s), 1e-12 * squares_of_springs(s));
+  EXPECT_EQ(found.imposed_stress, s.imposed_stress);
 }
 
 TEST(HandOver, UnchangedGrainsGiveTheState) {
@@ -58,21 +82,9 @@ void expect_images_followed(const State<System>& s) {
     b.position[k][0] += (static_cast<double>(k % 3) - 1) * moved.cell->length[0];
   const State<System> back = hand_over<System>(s, moved, {}, "moved");
   ASSERT_EQ(back.packing.links.size(), s.packing.links.size());
-  double springs = 0, before = 0;
-  for (const Link<D>& l : back.packing.links) springs += l.normal_force;
-  for (const Link<D>& l : s.packing.links) before += l.normal_force;
-  EXPECT_NEAR(springs, before, 1e-6 * std::abs(before) + 1e-6);
-  const auto moments = [](const State<System>& state) {
-    double sum = 0;
-    for (const Link<D>& l : state.packing.links)
-      if constexpr (D == 2)
-        sum += l.tangential_force * l.tangential_force;
-      else
-        sum += dot(l.tangential_force, l.tangential_force);
-    return sum;
-  };
-  EXPECT_GT(moments(s), 0);
-  EXPECT_NEAR(moments(back), moments(s), 1e-6 * moments(s));
+  const std::vector<double> after_it = sorted_normal_forces(back), before = sorted_normal_forces(s);
+  for (std::size_t l = 0; l < before.size(); ++l) EXPECT_NEAR(after_it[l], before[l], 1e-9);
+  EXPECT_NEAR(squares_of_springs(back), squares_of_springs(s), 1e-9 * squares_of_springs(s));
 }
 
 TEST(HandOver, SpringsFollowGrainsIntoOtherImages) {

@@ -2,6 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+#include <vector>
+
 #include "dem/disks/physical_hash.hpp"
 #include "dem/disks/sample.hpp"
 #include "dem/files/atomic_file.hpp"
@@ -37,6 +41,9 @@ TEST(PackingHeader, DisksComeBackToTheSameHash) {
   TemporaryFolder dir;
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
     State<Disks> s = random_state(seed, 20, 30);
+    std::set<std::pair<std::int32_t, std::int32_t>> joined;  // a network has a pair once
+    std::erase_if(s.packing.links, [&](const Link<2>& l) { return !joined.insert(std::minmax(l.i, l.j)).second; });
+    if (s.packing.cell) s.packing.cell->length = s.packing.cell->length + Vec2{{3, 4}};
     s.packing.part.clear(), s.packing.feet.clear(), s.scene.gravity = 0, s.surroundings = {};
     if (seed % 2 == 0) set_disk_inertia(s.packing.bodies);  // as runs have them, else each its own
     ASSERT_EQ(header_text(s).find("\nmass = ") == std::string::npos, seed % 2 == 0);

@@ -234,10 +234,7 @@ std::vector<Link<D>> read_links(const TextTable& links, const Packing<D>& grains
     }
     const Vec<D> r = branch(grains, i, j, l.shift);
     const double distance = norm(r);
-    if (!(distance > 0)) {
-      in.cell_fault(row, *ends[1], "is at the same place as grain i: the link has no normal");
-      continue;
-    }
+    if (!(distance > 0)) in.cell_fault(row, *ends[1], "is at the same place as grain i: the link has no normal");
     if (kind[0]) {
       const auto parsed = parse_kind(links.cell(row, *kind[0]));
       if (!parsed) in.cell_fault(row, *kind[0], "must be c, s, r, sr or d");
