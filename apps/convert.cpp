@@ -64,8 +64,8 @@ State<System> moved(const State<System>& base, const std::string& input, Packing
   if (reading.gap_tolerance)
     throw InputError("command line", 0, "--gap-tolerance", "",
                      "with --from contacts are found by the law of the state");
-  for (std::size_t k = 0; k < base.packing.grains(); ++k)
-    reading.radii[base.packing.bodies.id[k]] = base.packing.bodies.radius[k] * reading.length;
+  const std::vector<double>& radii = base.packing.bodies.radius;
+  if (!radii.empty()) reading.radius = *std::max_element(radii.begin(), radii.end()) * reading.length;
   if (base.packing.cell) {
     reading.own_cell.emplace();
     for (const double edge : base.packing.cell->length.c) reading.own_cell->push_back(edge * reading.length);
@@ -75,7 +75,7 @@ State<System> moved(const State<System>& base, const std::string& input, Packing
     throw InputError(input, 0, "--from", "", "takes grains from a table of text or a LAMMPS dump");
   if (!file.ids_given)
     throw InputError(input, 0, "id", "", "column is missing: grains go into a state by their ids (--from)");
-  const MovedGrains brings{file.velocities_given, file.spins_given, file.links_given};
+  const MovedGrains brings{file.sizes_given, file.velocities_given, file.spins_given, file.links_given};
   if constexpr (System::dimension == 2) {
     if (file.packing_3d) throw InputError(input, 0, "--from", "", "is in space, and the state is in the plane");
     return hand_over(base, file.state.packing, brings, input);

@@ -11,6 +11,7 @@
 #include "dem/solver/solver.hpp"
 #include "dem/spheres/certificate.hpp"
 #include "dem/spheres/engine.hpp"
+#include "dem/state/link_ends.hpp"
 #include "dem/state/touching.hpp"
 
 namespace isostat {
@@ -46,7 +47,8 @@ std::int64_t id_shift(const Packing<D>& state, const Packing<D>& moved) {
 
 // Of each grain of the state its place in the packing.
 template <int D>
-std::vector<std::size_t> matched(const Packing<D>& state, const Packing<D>& moved, const std::string& path) {
+std::vector<std::size_t> matched(const Packing<D>& state, const Packing<D>& moved, bool sizes,
+                                 const std::string& path) {
   const auto there = places(moved.bodies, moved.bodies.size());
   const std::int64_t shift = id_shift(state, moved);
   std::vector<std::size_t> place;
@@ -55,7 +57,7 @@ std::vector<std::size_t> matched(const Packing<D>& state, const Packing<D>& move
     if (found == there.end())
       throw InputError(path, 0, "id", text(state.bodies.id[k]), "a grain of the state is missing here (--from)");
     const double wanted = state.bodies.radius[k], is = moved.bodies.radius[found->second];
-    if (!(std::abs(is - wanted) <= kSameRadius * wanted))
+    if (sizes && !(std::abs(is - wanted) <= kSameRadius * wanted))
       throw InputError(
           path, 0, "radius", std::to_string(is),
           "grain " + text(state.bodies.id[k]) + " has the radius " + std::to_string(wanted) + " in the state (--from)");
@@ -116,7 +118,7 @@ State<System> hand_over(const State<System>& base, const Packing<System::dimensi
   constexpr int D = System::dimension;
   if (base.packing.cell.has_value() != moved.cell.has_value())
     throw InputError(path, 0, "cell", "", moved.cell ? "the state has no cell (--from)" : "the state has one (--from)");
-  const std::vector<std::size_t> place = matched<D>(base.packing, moved, path);
+  const std::vector<std::size_t> place = matched<D>(base.packing, moved, brings.sizes, path);
   State<System> state = base;
   Packing<D>& packing = state.packing;
   packing.cell = moved.cell;
@@ -136,6 +138,11 @@ State<System> hand_over(const State<System>& base, const Packing<System::dimensi
     packing.links = moved.links;
     for (Link<D>& l : packing.links)
       for (std::int32_t* end : {&l.i, &l.j}) *end = own[static_cast<std::size_t>(*end)];
+    for (Link<D>& l : packing.links)
+      if (!brings.sizes) {
+        const auto i = static_cast<std::size_t>(l.i), j = static_cast<std::size_t>(l.j);
+        l.gap = norm(branch(packing, i, j, l.shift)) - packing.bodies.radius[i] - packing.bodies.radius[j];
+      }
   } else if (!(state.time_step > 0)) {  // it was never in a run
     find_contacts<D>(packing, default_gap_tolerance(packing.bodies));
   } else {

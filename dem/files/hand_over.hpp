@@ -9,6 +9,7 @@
 namespace isostat {
 
 struct MovedGrains {
+  bool sizes = true;        // the packing brings radii; else they are not looked at, and gaps follow from the state's
   bool velocities = false;  // the packing brings them; else the state's stay
   bool spins = false;
   bool links = false;  // the packing lists its contacts; else they are found by the law, and springs stay on their

@@ -166,8 +166,9 @@ void read_tables_into(PackingFile& file, const TextTable& grains, const BesideGr
                       const PackingReading& reading) {
   Packing<D> packing;
   GrainColumns columns;
-  packing.bodies = read_grains<D>(grains, reading.columns, reading.radii, &columns);
-  file.ids_given = columns.ids, file.velocities_given = columns.velocities, file.spins_given = columns.spins;
+  packing.bodies = read_grains<D>(grains, reading.columns, reading.radius, &columns);
+  file.ids_given = columns.ids, file.sizes_given = columns.sizes, file.velocities_given = columns.velocities,
+  file.spins_given = columns.spins;
   if (beside.cell) {
     if (beside.cell->size() < D)
       throw InputError(grains.path, 0, "cell", "", "needs " + std::to_string(D) + " edges for these grains");
@@ -287,7 +288,7 @@ PackingFormat sniff_packing_format(const std::string& path, bool columns_named) 
   }
   // A network with a misspelt first line is told so by its own reader.
   if (path.ends_with(".net")) return PackingFormat::network;
-  if (is_text && (columns_named || begins_like_table(bytes))) return PackingFormat::csv;
+  if (is_text && (columns_named || path.ends_with(".csv") || begins_like_table(bytes))) return PackingFormat::csv;
   throw InputError(path, 0, "", "",
                    is_text ? "is no state (HDF5), network (.net), LAMMPS dump or table of grains: such a table begins "
                              "with the names of its columns, x, y and r (or d, the diameter), split by commas, "

@@ -1,8 +1,6 @@
 // Any file that holds a packing, told apart by its content: a state (HDF5), a network, a LAMMPS dump, a table of
 // grains.
 #pragma once
-#include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,7 +22,8 @@ struct PackingFile {
   std::optional<State<TriangleGrains>> triangles;  // of a file of triangles; `state` then has no grains
   std::vector<Triangle> corners;                   // of the triangles, anticlockwise: of a network as its file has them
   bool links_given = false;                        // the file lists its links; false: found by touching
-  bool ids_given = false, velocities_given = false, spins_given = false;  // of a table: it has the columns
+  bool ids_given = false, sizes_given = true, velocities_given = false,
+       spins_given = false;  // of a table: it has the columns
 };
 
 struct PackingReading {
@@ -34,7 +33,7 @@ struct PackingReading {
   std::string contacts;                    // file of the contacts of a table or dump (--contacts); empty: looked for
   double length = 1, force = 1;            // of the file, that become the units (--length, --force)
   // Of the state that a moved packing is put into (--from): what a table has no column for.
-  std::map<std::int64_t, double> radii;         // of grains
+  std::optional<double> radius;                 // of all grains, until the state says it
   std::optional<std::vector<double>> own_cell;  // where neither the file nor --box has one
 };
 

@@ -89,15 +89,15 @@ TEST_F(Convert, ThereAndBackAgain) {
 }
 
 TEST_F(Convert, AnotherEngineMovesGrainsOfAState) {
-  // Wrapped into the cell, in another order, without radii and spins: everything else is the state's.
+  // Wrapped into the cell, in another order, numbered from 1, without radii and spins: everything else is the state's.
   const auto s = read_state<Disks>(in_folder("s.snapshot0003.h5"));
   const Bodies<2>& b = s.packing.bodies;
   std::string table = "id vx y x vy\n";
   for (std::size_t k = b.size(); k-- > 0;) {
     const Vec2 r = s.packing.cell->wrap(b.position[k] + Vec2{{1e-6, 0}});
     char row[200];
-    std::snprintf(row, sizeof row, "%lld %.17g %.17g %.17g %.17g\n", static_cast<long long>(b.id[k]), -b.velocity[k][0],
-                  r[1], r[0], b.velocity[k][1]);
+    std::snprintf(row, sizeof row, "%lld %.17g %.17g %.17g %.17g\n", static_cast<long long>(b.id[k] + 1),
+                  -b.velocity[k][0], r[1], r[0], b.velocity[k][1]);
     table += row;
   }
   write("moved.txt", table);

@@ -56,7 +56,7 @@ std::vector<double> sorted_normal_forces(const State<System>& s) {
 template <class System>
 void expect_back_unchanged(const State<System>& s) {
   ASSERT_GT(s.packing.links.size(), 20u);
-  const State<System> given = hand_over<System>(s, s.packing, {true, true, true}, "moved");
+  const State<System> given = hand_over<System>(s, s.packing, {true, true, true, true}, "moved");
   EXPECT_EQ(physical_hash(given), physical_hash(s));
   EXPECT_TRUE(given.memory.half_velocity.empty());
   // Found by the law: the same but for the rounding of springs at their limits.

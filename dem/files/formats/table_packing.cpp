@@ -124,18 +124,18 @@ int grain_dimension(const TextTable& grains, const ColumnNames& named) {
 }
 
 template <int D>
-Bodies<D> read_grains(const TextTable& grains, const ColumnNames& named, const std::map<std::int64_t, double>& radii,
+Bodies<D> read_grains(const TextTable& grains, const ColumnNames& named, std::optional<double> radius,
                       GrainColumns* columns) {
   NumberReader in(grains, TableKind::grains, named);
   const Columns x = in.find_required(with_axes(D, ""));
   Columns size = in.find({"r", "d"});
   const bool no_size = !any_there(size);
-  if (no_size && radii.empty()) in.missing("r");
+  if (no_size && !radius) in.missing("r");
   if (all_there(size)) size[named.contains("d") && !named.contains("r") ? 0 : 1].reset();
   const Columns id = in.find({"id"}), v = in.find(with_axes(D, "v")), m = in.find({"m"});
   const Columns w = D == 2 ? in.find({"omega"}) : in.find(with_axes(3, "w"));
   in.throw_faults();
-  if (columns) *columns = {all_there(id), all_there(v), all_there(w)};
+  if (columns) *columns = {all_there(id), !no_size, all_there(v), all_there(w)};
   if (grains.rows() == 0) in.fault(grains.header_line, "", "", "the table has no grain");
 
   Bodies<D> b;
@@ -147,17 +147,8 @@ Bodies<D> read_grains(const TextTable& grains, const ColumnNames& named, const s
     if (!is_new && id[0])
       in.cell_fault(row, *id[0],
                     "ids are distinct; used before in line " + std::to_string(grains.lines[first->second]));
-    if (no_size) {
-      const auto radius = radii.find(b.id[row]);
-      if (radius == radii.end())
-        in.fault(grains.lines[row], "id", std::to_string(b.id[row]),
-                 "the state has no such grain, whose radius would be taken (--from)");
-      else
-        b.radius[row] = radius->second;
-    } else {
-      b.radius[row] = size[0] ? in.real(row, size[0], 0) : in.real(row, size[1], 0) / 2;
-      if (!(b.radius[row] > 0)) in.cell_fault(row, *(size[0] ? size[0] : size[1]), "must be positive");
-    }
+    b.radius[row] = no_size ? *radius : size[0] ? in.real(row, size[0], 0) : in.real(row, size[1], 0) / 2;
+    if (!(b.radius[row] > 0)) in.cell_fault(row, *(size[0] ? size[0] : size[1]), "must be positive");
     b.position[row] = in.vector<D>(row, x);
     b.velocity[row] = in.vector<D>(row, v);
     set_spin(in, row, w, b.spin[row]);
@@ -254,10 +245,8 @@ std::vector<Link<D>> read_links(const TextTable& links, const Packing<D>& grains
   return out;
 }
 
-template Bodies<2> read_grains(const TextTable&, const ColumnNames&, const std::map<std::int64_t, double>&,
-                               GrainColumns*);
-template Bodies<3> read_grains(const TextTable&, const ColumnNames&, const std::map<std::int64_t, double>&,
-                               GrainColumns*);
+template Bodies<2> read_grains(const TextTable&, const ColumnNames&, std::optional<double>, GrainColumns*);
+template Bodies<3> read_grains(const TextTable&, const ColumnNames&, std::optional<double>, GrainColumns*);
 template void set_equal_densities(Bodies<2>&);
 template void set_equal_densities(Bodies<3>&);
 template std::vector<Link<2>> read_links(const TextTable&, const Packing<2>&, const ColumnNames&);

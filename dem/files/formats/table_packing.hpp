@@ -1,7 +1,6 @@
 // Grains and links from tables of text (docs/formats.md has their columns).
 #pragma once
-#include <cstdint>
-#include <map>
+#include <optional>
 #include <vector>
 
 #include "dem/files/formats/column_names.hpp"
@@ -14,15 +13,15 @@ namespace isostat {
 int grain_dimension(const TextTable& grains, const ColumnNames& named);
 
 struct GrainColumns {
-  bool ids = false, velocities = false, spins = false;  // the table has them
+  bool ids = false, sizes = false, velocities = false, spins = false;  // the table has them
 };
 
 // Columns x, y(, z), r or d; optional id, vx, vy(, vz), omega (3D wx, wy, wz), m. Other columns are ignored. Without id
-// grains are numbered by rows from 1; without m the largest has mass 1 and all the same density; without r and d the
-// radius is that of `radii` by id. Throws InputError listing the faults with their lines.
+// grains are numbered by rows from 1; without m the largest has mass 1 and all the same density; without r and d all
+// have the radius given here. Throws InputError listing the faults with their lines.
 template <int D>
-Bodies<D> read_grains(const TextTable& grains, const ColumnNames& named,
-                      const std::map<std::int64_t, double>& radii = {}, GrainColumns* columns = nullptr);
+Bodies<D> read_grains(const TextTable& grains, const ColumnNames& named, std::optional<double> radius = std::nullopt,
+                      GrainColumns* columns = nullptr);
 
 // Mass 1 for the largest grain: what a file without masses is taken to mean.
 template <int D>
