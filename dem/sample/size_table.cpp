@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "dem/files/atomic_file.hpp"
-#include "dem/files/formats/text_table.hpp"
+#include "dem/files/formats/table_packing.hpp"
 #include "dem/scene/text.hpp"
 
 namespace isostat {
@@ -47,14 +47,13 @@ class SizeTable {
  private:
   std::vector<double> column(const char* name) { return real_column(table_, name, faults_); }
   void fault(std::size_t row, const char* name, double value, std::string rule) {
-    faults_.push_back(
-        {table_.path, table_.first_line + static_cast<int>(row), name, real_text(value), std::move(rule)});
+    faults_.push_back({table_.path, table_.lines[row], name, real_text(value), std::move(rule)});
   }
 
   void check_columns() {
     const auto has = [&](const char* name) { return table_.column(name).has_value(); };
     const auto header_fault = [&](const char* name, const char* rule) {
-      faults_.push_back({table_.path, table_.first_line - 1, name, "", rule});
+      faults_.push_back({table_.path, table_.header_line, name, "", rule});
     };
     if (!has("diameter")) header_fault("diameter", "column is missing; a table of sizes is diameter,share");
     if (!has("share") && !has("passing"))
@@ -105,8 +104,7 @@ class SizeTable {
 }  // namespace
 
 std::vector<SizeClass> read_size_table(const std::string& path, ShareOf share_of, int dimension, double largest) {
-  const std::string text = read_whole_file(path);
-  const TextTable columns = parse_csv(text, path);
+  const TextTable columns = parse_table(read_whole_file(path), path);
   SizeTable table(columns);
   table.check();
   return table.classes(share_of, dimension, largest);

@@ -151,8 +151,12 @@ struct OutputScene {
   double series_interval = 1.0;                  // [T0]
   bool energies = false;                         // energy ledger in the series (costs a tally kernel)
   bool stages = false;                           // keep the state at the end of each stage but the last
+  std::optional<double> snapshot_interval;       // [T0] none: only at the times and solid fractions
   std::vector<double> snapshot_times;            // [T0]
   std::vector<double> snapshot_solid_fractions;  // [-]
+  bool keeps_snapshots() const {
+    return snapshot_interval || !snapshot_times.empty() || !snapshot_solid_fractions.empty();
+  }
   friend bool operator==(const OutputScene&, const OutputScene&) = default;
 };
 

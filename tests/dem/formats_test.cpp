@@ -210,7 +210,7 @@ TEST(Dump, RefusesTruncatedTiltedAndForeignText) {
   const std::string whole = kForeignDump;
   write_files_atomically({{dir / "l.dump", whole.substr(0, whole.find("6 0.75"))}});
   EXPECT_THAT(faults_of(dir / "l.dump"), HasSubstr("1 rows are missing"));
-  write_files_atomically({{dir / "l.dump", "ITEM: BOX BOUNDS xy xz yz pp pp pp\n"}});
+  write_files_atomically({{dir / "l.dump", "ITEM: BOX BOUNDS xy xz yz pp pp pp\n0 1 .5\n0 1 0\n0 1 0\n"}});
   EXPECT_THAT(faults_of(dir / "l.dump"), HasSubstr("tilted"));
   write_files_atomically(
       {{dir / "l.dump",
