@@ -48,6 +48,8 @@ Json certificate_json(const Certificate& c, bool yields) {
           {"rolling_yielded", c.rolling_yielded},
           {"smallest_margin", yields ? c.smallest_margin : kUndefined},
           {"moving", c.moving},
+          {"inertial_number", c.inertial_number},
+          {"stress_error", c.stress_error},
           {"finishing", c.finishing},
           {"equilibrated", c.equilibrated}};
 }
@@ -67,7 +69,7 @@ Json equilibrium_of_spheres(const State<Spheres>& state, const Packing<3>& packi
   SpherePacking whole = state.packing;
   static_cast<Packing<3>&>(whole) = packing;
   Certificate c = evaluate_certificate(whole, state.law, state.imposed_stress, state.scene.equilibrium);
-  c.finishing = state.certificate.finishing;
+  keep_record(c, state.certificate);
   return certificate_json(c, (any_contact(packing) || !whole.wall_links.empty()) && can_yield(state.law));
 }
 

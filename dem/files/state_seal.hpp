@@ -8,7 +8,7 @@
 namespace isostat {
 
 inline constexpr std::size_t kSealBytes = 512;  // a user block in the sense of HDF5
-inline constexpr int kStateFormatVersion = 6;   // that is written; docs/formats.md
+inline constexpr int kStateFormatVersion = 7;   // that is written; docs/formats.md
 inline constexpr int kOldestStateFormat = 3;    // that is read
 
 // Fills the first kSealBytes of an HDF5 image that has a user block of that size.

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "dem/run/loading.hpp"
 #include "dem/run/series.hpp"
 #include "dem/state/state.hpp"
 
@@ -30,6 +31,8 @@ void add_stage_columns(std::vector<SeriesColumn>& columns, const State<System>& 
       const auto u = static_cast<std::size_t>(a);
       columns.push_back({kImposed[u], s.imposed_stress[u].value_or(std::numeric_limits<double>::quiet_NaN())});
     }
+    columns.push_back({"inertial_number", inertial_number(s)});
+    columns.push_back({"stress_error", stress_error(s)});
   }
   columns.push_back({"static_solves", static_cast<double>(s.progress.solves)});
 }

@@ -47,6 +47,14 @@ std::vector<SceneKey> common_keys() {
        .range = positive,
        .condition = has_random_cell,
        .meaning = "L1 / L2 of the initial cell."},
+      {.name = "cell.damping",
+       .field = in<&S::cell, &CellScene::damping>,
+       .unit = "1/T0",
+       .range = not_negative,
+       .condition = has_cell,
+       .meaning =
+           "Rate at which the motion of edges under an imposed stress is damped, so that their inertia does not carry "
+           "them beyond balance; the paper's cell has none and swings (docs/measured/loading.md)."},
       {.name = "cell.rate_coupling",
        .field = in<&S::cell, &CellScene::rate_coupling>,
        .condition = has_cell,
@@ -106,6 +114,7 @@ std::vector<SceneKey> common_keys() {
        .field = in<&S::stages, &StageScene::pressures>,
        .unit = "F0/a",
        .range = not_negative,
+       .hidden_at_default = true,
        .meaning = "A load path: the stage is run once for each of these values of stage.pressure, in turn; velocities "
                   "are drawn in the first one only. The resolved scene has them as stages of their own."},
       {.name = "stage.stress_1",
@@ -130,6 +139,13 @@ std::vector<SceneKey> common_keys() {
        .unit = "1/T0",
        .absent = "none imposed",
        .meaning = "The same along direction 2."},
+      {.name = "stage.ramp_time",
+       .field = in<&S::stages, &StageScene::ramp_time>,
+       .unit = "T0",
+       .range = not_negative,
+       .meaning = "Imposed stresses and strain rates go linearly in so long a time from what they were (a stress that "
+                  "was not imposed: from the one that is there) to what the stage asks for, and the stage does not "
+                  "end before; 0: at once."},
       {.name = "stage.velocity",
        .field = in<&S::stages, &StageScene::velocity>,
        .unit = "V*",
@@ -182,8 +198,10 @@ std::vector<SceneKey> common_keys() {
        .choices = names(kUntilNames),
        .meaning =
            "What ends the stage: equilibrium; aggregated, i.e. equilibrium of a single cluster (disks); a time; the "
-           "strain of a driven direction; failure, when the stress of a driven direction has lost the part stage.drop "
-           "of the largest change it had; empty, when every grain has left a hopper; clogged, when none has left it "
+           "strain of a driven direction; failure, when the stress that a driven or ramped direction carries has lost "
+           "the "
+           "part stage.drop of its peak (docs/equilibrium.md); empty, when every grain has left a hopper; clogged, "
+           "when none has left it "
            "for stage.clog_time; separated, when two colliding grains have met and left each other. If it "
            "is not met within stage.max_time the exit code is 3."},
       {.name = "stage.time",

@@ -40,6 +40,7 @@ struct StepScene {
 struct CellScene {
   double inertia = 0.3;        // M in units of the sum of grain masses (PHYSICS.md: cell inertia)
   double aspect = 1.0;         // [-] L1 / L2 of the initial cell
+  double damping = 0;          // [1/T0] of its strain rate under an imposed stress; the paper has none
   bool rate_coupling = false;  // add -(Ldot/L) v to the peculiar acceleration
   friend bool operator==(const CellScene&, const CellScene&) = default;
 };
@@ -94,8 +95,8 @@ struct StageScene {
   // Of one direction, compression positive [F0/a], [1/T0]; the third in space only.
   std::optional<double> stress_1, stress_2, stress_3;
   std::optional<double> strain_rate_1, strain_rate_2, strain_rate_3;
-  double velocity =
-      0.0;  // V0 [V*, velocity_unit() of dem/solver/agitation.hpp] rms velocity drawn at the start; 0: keep
+  double ramp_time = 0;   // [T0] in which imposed stresses and rates come to these values; 0: at once
+  double velocity = 0.0;  // V0 [V*, velocity_unit() of dem/solver/agitation.hpp] rms drawn at the start; 0: keep
   VelocityOf velocity_of = VelocityOf::vector;
   double max_strain_rate = 0.05;           // [1/T0] cap of the cell's strain rate; 0: no cap
   std::optional<double> max_edge_speed;    // [a/T0] cap of |Ldot| of each edge that a stress controls; absent: none

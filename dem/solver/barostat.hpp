@@ -1,6 +1,7 @@
 // The degrees of freedom of the cell (Gilabert 2007, Eq. 3):  M d2(eps_a)/dt2 = sigma_imposed - sigma_aa, with
 // eps_a' = -L_a' / L0_a, compression positive, L0 the cell at the start of the stage, and caps on the rate and on
-// |L_a'|. A direction may have its rate imposed instead.
+// |L_a'|. A direction may have its rate imposed instead. Beyond the paper the cell may be damped, and what is imposed
+// may come by a ramp.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -13,6 +14,15 @@
 
 namespace isostat {
 
+// Imposed stresses and rates come linearly in time from what they were to what is asked for.
+template <int D>
+struct CellRamp {
+  double start = 0, length = 0;  // [T0]; length 0: at once
+  Vec<D> stress{};               // [F0/a] at the start, along edges with an imposed stress
+  Vec<D> strain_rate{};          // [1/T0] at the start, along the others
+  double left(double time) const { return length > 0 ? std::clamp(1 - (time - start) / length, 0.0, 1.0) : 0.0; }
+};
+
 template <int D>
 struct CellControl {
   ImposedStress<D> stress;     // [F0/a]
@@ -20,8 +30,24 @@ struct CellControl {
   double max_strain_rate = 0;  // [1/T0]; 0: no cap
   double max_edge_speed = std::numeric_limits<double>::infinity();  // [a/T0] of |Ldot| under an imposed stress
   double inertia = 1;                                               // M [m]
+  double damping = 0;                                               // [1/T0] of the cell's strain rate
   bool rate_coupling = false;                                       // peculiar velocities also feel -(Ldot/L) v
-  bool moves() const { return largest_stress(stress) || strain_rate != Vec<D>{}; }
+  CellRamp<D> ramp;
+  bool moves() const {
+    return largest_stress(stress) || strain_rate != Vec<D>{} || (ramp.length > 0 && ramp.strain_rate != Vec<D>{});
+  }
+  // What is imposed at a time: a function of the time alone, after the ramp the same to the bit as without one.
+  CellControl at(double time) const {
+    const double left = ramp.left(time);
+    if (left == 0) return *this;
+    CellControl now = *this;
+    for (int a = 0; a < D; ++a) {
+      auto& imposed = now.stress[static_cast<std::size_t>(a)];
+      if (imposed) *imposed += left * (ramp.stress[a] - *imposed);
+      now.strain_rate[a] += left * (ramp.strain_rate[a] - now.strain_rate[a]);
+    }
+    return now;
+  }
 };
 
 // Ldot_a / L_a: the velocity gradient that the bodies' affine velocities have [1/T0].
@@ -43,6 +69,7 @@ CellFlow<D> advance_cell(const CellControl<D>& control, double dt, CellMotion<D>
     double rate = control.strain_rate[a];
     if (stress) {
       rate = before + dt * (*stress - motion.stress[a]) / control.inertia;
+      if (control.damping > 0) rate /= 1 + control.damping * dt;
       if (control.max_strain_rate > 0) rate = std::clamp(rate, -control.max_strain_rate, control.max_strain_rate);
       const double fastest = control.max_edge_speed / motion.reference_length[a];
       rate = std::clamp(rate, -fastest, fastest);

@@ -60,6 +60,31 @@ TEST_F(Pack, RunsTheStagesAndWritesOneState) {
   EXPECT_TRUE(t["stages"].is_object() && !t["stages"].empty());
 }
 
+// A row of ten disks that closes on itself, pulled along it.
+TEST_F(Pack, SaysWhichStageWasNotQuasiStatic) {
+  std::string row = "cell 9.99 4\n";
+  for (int k = 0; k < 10; ++k) row += "grain " + std::to_string(k) + " " + std::to_string(0.999 * k) + " 2 .5\n";
+  write("row.net", row);
+  const auto told = [&](const std::string& stage) {
+    write("scene.toml", "[grains]\nfile = \"" + in_folder("row.net") +
+                            "\"\n[law]\nnormal_stiffness = 1e3\n[[stage]]\nuntil = \"time\"\ntime = 2\n" + stage);
+    const Outcome o = run(pack("row.h5", "--force"));
+    EXPECT_EQ(o.code, 0) << o.err;
+    return o.err;
+  };
+  EXPECT_THAT(told("strain_rate_1 = -2e-3\n"), HasSubstr("not quasi-static, stage 0: inertial number up to 0.002"));
+  EXPECT_THAT(told("strain_rate_1 = -5e-4\n"), Not(HasSubstr("quasi-static")));
+  EXPECT_THAT(told("strain_rate_1 = -5e-4\nstress_2 = 0.1\nmax_strain_rate = 5e-4\n"), Not(HasSubstr("quasi-static")))
+      << "on its way to the stress";
+  EXPECT_THAT(
+      told("strain_rate_1 = 9e-4\n[[stage]]\nuntil = \"time\"\ntime = 2\nstress_1 = 0.1\nmax_strain_rate = 0\n"),
+      HasSubstr("not quasi-static, stage 1: inertial number"))
+      << "the paper's cell swings";
+  EXPECT_THAT(
+      told("strain_rate_1 = 9e-4\n[[stage]]\nuntil = \"time\"\ntime = 2\nstress_1 = 0.1\nmax_strain_rate = 0\n"),
+      HasSubstr("stress off by up to"));
+}
+
 TEST_F(Pack, SeedSetAndThreads) {
   ASSERT_EQ(run(pack("a.h5")).code, 0);
   ASSERT_EQ(run(pack("b.h5", "--threads 3")).code, 0);
