@@ -38,6 +38,8 @@ const std::vector<std::pair<std::string_view, Kind>>& kinds() {
       {"equilibrium.law_residual", Kind::scale},
       {"stress.tensor", Kind::stress},
       {"stress.pressure", Kind::stress},
+      {"stress.principal", Kind::stress},
+      {"stress.deviator", Kind::stress},
       {"stress.rumpf_force", Kind::force},
       {"stress.mean_normal_force", Kind::force},
       {"stress.mean_force_diameter", Kind::moment},

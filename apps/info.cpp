@@ -197,6 +197,7 @@ Json info_json(const State<System>& state, const StateFile& file) {
   json["system"] = System::name;
   json["cell"] = nullptr;
   if (state.packing.cell) json["cell"] = state.packing.cell->length.c;
+  if (state.packing.cell && state.packing.cell->tilt != 0) json["tilt"] = state.packing.cell->tilt;
   json["time"] = state.time;
   json["seed"] = state.seed;
   add_size(json, state);

@@ -20,7 +20,10 @@ Json cell_json(const Packing<D>& before, const Packing<D>& after) {
   if (!before.cell || !after.cell) return nullptr;
   Json strain = Json::array();
   for (int k = 0; k < D; ++k) strain.push_back(1 - after.cell->length[k] / before.cell->length[k]);
-  return {{"strain", std::move(strain)}, {"solid_fraction", {solid_fraction(before), solid_fraction(after)}}};
+  const double shear = followed(*before.cell, *after.cell).slant() - before.cell->slant();
+  return {{"strain", std::move(strain)},
+          {"shear", shear},
+          {"solid_fraction", {solid_fraction(before), solid_fraction(after)}}};
 }
 
 Json changes_json(const LinkChanges& c) {

@@ -18,15 +18,19 @@ Vec<D> displacement(const Packing<D>& before, const Packing<D>& after, std::size
   const Vec<D>& from = before.bodies.position[i];
   const Vec<D>& to = after.bodies.position[j];
   if (!before.cell || !after.cell) return to - from;
-  Vec<D> u;
-  for (int k = 0; k < D; ++k) {
-    const double fraction = to[k] / after.cell->length[k] - from[k] / before.cell->length[k];
-    u[k] = (fraction - std::round(fraction)) * after.cell->length[k];
-  }
-  return u;
+  const PeriodicCell<D> now = followed(*before.cell, *after.cell);
+  Vec<D> moved = now.fractions(to) - before.cell->fractions(from);
+  for (int k = 0; k < D; ++k) moved[k] -= std::round(moved[k]);
+  return now.point(moved);
 }
 
 }  // namespace
+
+template <int D>
+PeriodicCell<D> followed(const PeriodicCell<D>& before, PeriodicCell<D> after) {
+  after.tilt += std::round(before.tilt / before.length[0] - after.tilt / after.length[0]) * after.length[0];
+  return after;
+}
 
 template <int D>
 Matching match_grains(const Packing<D>& before, const Packing<D>& after) {
@@ -58,6 +62,8 @@ std::vector<Vec<D>> nonaffine_displacements(const Packing<D>& before, const Pack
   return u;
 }
 
+template PeriodicCell<2> followed(const PeriodicCell<2>&, PeriodicCell<2>);
+template PeriodicCell<3> followed(const PeriodicCell<3>&, PeriodicCell<3>);
 template Matching match_grains(const Packing<2>&, const Packing<2>&);
 template Matching match_grains(const Packing<3>&, const Packing<3>&);
 template std::vector<Vec2> nonaffine_displacements(const Packing<2>&, const Packing<2>&, const Matching&);

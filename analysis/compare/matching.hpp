@@ -18,6 +18,10 @@ struct Matching {
 template <int D>
 Matching match_grains(const Packing<D>& before, const Packing<D>& after);
 
+// The cell after, told by the one of its equivalent tilts that is nearest to the tilt before.
+template <int D>
+PeriodicCell<D> followed(const PeriodicCell<D>& before, PeriodicCell<D> after);
+
 // Displacement of each matched grain beyond the affine motion of the cell [a]: the change of its position in fractions
 // of the cell, nearest image, times the edges of the cell after, less the mean of all. Without a cell: the change of
 // position less the mean. Right as long as no grain has gone half a cell against the others.

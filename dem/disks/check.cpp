@@ -57,8 +57,8 @@ double heaviest(const Scene& scene) { return largest_mass(scene) * scene.gravity
 
 // F1 [F0] of a stage, a = 1.
 double largest_force(const Scene& scene, const StageScene& stage) {
-  double force =
-      std::max({scene.law.attraction, std::abs(largest_stress(imposed_stress<2>(stage)).value_or(0)), heaviest(scene)});
+  double force = std::max({scene.law.attraction, std::abs(largest_stress(imposed_stress<2>(stage)).value_or(0)),
+                           std::abs(stage.stress_12.value_or(0)), heaviest(scene)});
   for (const double p : stage.pressures) force = std::max(force, p);
   return force;
 }
@@ -82,7 +82,8 @@ void check_stiffness(const Scene& scene, std::vector<SceneConflict>& found) {
     const double force = largest_force(scene, scene.stages[i]);
     largest = std::max(largest, force);
     if (force > 0) smallest = std::min(smallest, force);
-    for (const char* key : {"pressure", "pressures", "stress_1", "stress_2"}) involved.push_back(stage_key(i, key));
+    for (const char* key : {"pressure", "pressures", "stress_1", "stress_2", "stress_12"})
+      involved.push_back(stage_key(i, key));
   }
   const double diameter = smallest_diameter(scene);
   for (const auto& [key, stiffness] : stiffnesses)

@@ -81,7 +81,7 @@ void follow_images(std::vector<Link<D>>& links, const std::vector<Vec<D>>& befor
     for (int k = 0; k < D; ++k) {
       const auto cells = [&](std::int32_t body) {
         const auto b = static_cast<std::size_t>(body);
-        return static_cast<int>(std::lround((now.bodies.position[b][k] - before[b][k]) / now.cell->length[k]));
+        return static_cast<int>(std::lround(now.cell->fractions(now.bodies.position[b] - before[b])[k]));
       };
       if (static_cast<std::size_t>(std::max(l.i, l.j)) < before.size())
         l.shift[static_cast<std::size_t>(k)] += cells(l.i) - cells(l.j);

@@ -29,6 +29,8 @@ class NetworkParser {
     network_lines::each_line(text, [&](int line, const Fields& f) {
       if (f[0] == "cell")
         cell(line, f);
+      else if (f[0] == "tilt")
+        tilt(line, f);
       else if (f[0] == "grain")
         grain(line, f);
       else if (f[0] == "contact" || f[0] == "beam")
@@ -37,8 +39,10 @@ class NetworkParser {
         fault(line, "", f[0],
               f[0] == "triangle"
                   ? "a network is of grains or of triangles, not of both"
-                  : "a line starts with cell, grain, contact or beam, or with triangle in a network of triangles");
+                  : "a line starts with cell, tilt, grain, contact or beam, or with triangle in a network of "
+                    "triangles");
     });
+    place_tilt();
     check_placement();
     for (const auto& [at, fields] : links_) {
       const bool is_beam = fields[0] == "beam";
@@ -86,6 +90,19 @@ class NetworkParser {
     }
     has_cell_ = true;
     if (good) file_.packing.cell = c;
+  }
+
+  void tilt(int line, const Fields& f) {
+    if constexpr (D == 3) return fault(line, "tilt", "", "a cell in space stands upright; only one of the plane tilts");
+    if (f.size() != 2) return fault(line, "tilt", std::to_string(f.size() - 1) + " numbers", "tilt T");
+    if (tilt_line_ > 0)
+      return fault(line, "tilt", "", "given before in line " + std::to_string(tilt_line_) + "; keep one");
+    tilt_line_ = line, tilt_ = real(line, "tilt", f[1], false).value_or(0);
+  }
+  void place_tilt() {
+    if (tilt_line_ == 0) return;
+    if (!has_cell_) fault(tilt_line_, "tilt", "", "needs a cell line");
+    if (file_.packing.cell) file_.packing.cell->tilt = tilt_;
   }
 
   void grain(int line, const Fields& f) {
@@ -246,7 +263,8 @@ class NetworkParser {
   std::string path_;
   NetworkFile<D> file_;
   std::vector<Fault> faults_;
-  int cell_line_ = 0;
+  int cell_line_ = 0, tilt_line_ = 0;
+  double tilt_ = 0;
   bool has_cell_ = false;
   std::unordered_map<std::int64_t, std::int32_t> index_;  // of an ID
   std::vector<int> line_of_grain_;
@@ -304,6 +322,7 @@ std::string network_text(const Packing<D>& packing) {
     text += "cell";
     for (int k = 0; k < D; ++k) real(packing.cell->length[k]);
     text += '\n';
+    if (packing.cell->tilt != 0) text += "tilt", real(packing.cell->tilt), text += '\n';
   }
   const Bodies<D>& b = packing.bodies;
   for (std::size_t i = 0; i < b.size(); ++i) {

@@ -160,6 +160,7 @@ void take(PackingFile& file, State<TriangleGrains> state) {
 struct BesideGrains {
   std::optional<TextTable> links;
   std::optional<std::vector<double>> cell;
+  double tilt = 0;  // of that cell
   std::optional<PackingHeader> header;
 };
 
@@ -175,6 +176,9 @@ void read_tables_into(PackingFile& file, const TextTable& grains, const BesideGr
     if (beside.cell->size() < D)
       throw InputError(grains.path, 0, "cell", "", "needs " + std::to_string(D) + " edges for these grains");
     packing.cell = cell_of<D>(*beside.cell);
+    if (D == 3 && beside.tilt != 0)
+      throw InputError(grains.path, 0, "tilt", "", "a cell in space stands upright; only one of the plane tilts");
+    packing.cell->tilt = beside.tilt;
   }
   set_box(packing, grains.path, reading);
   if (!packing.cell && reading.own_cell && reading.own_cell->size() == D) packing.cell = cell_of<D>(*reading.own_cell);
@@ -231,7 +235,7 @@ void read_csv(PackingFile& file, const std::string& path, const PackingReading& 
   if (const std::string links = contacts_path(reading, path, contacts_csv_path(path)); !links.empty())
     beside.links = read_contacts(links, reading).table;
   beside.header = read_header(path);
-  if (beside.header && !reading.box) beside.cell = beside.header->cell();
+  if (beside.header && !reading.box) beside.cell = beside.header->cell(), beside.tilt = beside.header->tilt();
   read_tables(file, parse_table(read_whole_file(path), path), beside, reading);
 }
 
@@ -246,7 +250,7 @@ void read_dump(PackingFile& file, const std::string& path, const PackingReading&
     beside.links = std::move(frame.table);
   }
   beside.header = read_header(path);
-  beside.cell = grains.box;
+  beside.cell = grains.box, beside.tilt = grains.tilt;
   read_tables(file, grains.table, beside, reading);
 }
 
@@ -283,7 +287,8 @@ PackingFormat sniff_packing_format(const std::string& path, bool columns_named) 
     const std::size_t first = line.find_first_not_of(" \t\r\v\f");
     if (first == std::string::npos || line[first] == '#') continue;
     const std::string word = line.substr(first, line.find_first_of(" \t\r,", first) - first);
-    if (word == "cell" || word == "grain" || word == "contact" || word == "beam" || word == "triangle")
+    if (word == "cell" || word == "tilt" || word == "grain" || word == "contact" || word == "beam" ||
+        word == "triangle")
       return PackingFormat::network;
     if (word == "ITEM:") return PackingFormat::dump;
     break;

@@ -144,6 +144,24 @@ TEST(Comparison, OrderImagesAndDriftAreNoChange) {
   }
 }
 
+// A cell that has sheared past half its edge and was lowered by a whole one: the displacements are affine.
+TEST(Comparison, ShearIsAffineWhateverTheTilt) {
+  const Packing<2> p = random_network({.columns = 4, .rows = 4, .seed = 3});
+  Packing<2> q = p;
+  q.cell->tilt = 0.7 * q.cell->length[0];
+  for (Vec2& r : q.bodies.position) r = q.cell->point(p.cell->fractions(r));
+  q.cell->tilt -= q.cell->length[0];
+  for (Link<2>& l : q.links) l.shift[0] += l.shift[1];
+  Packing<2> before = p;
+  before.cell->tilt = 0.3 * p.cell->length[0];
+  for (Vec2& r : before.bodies.position) r = before.cell->point(p.cell->fractions(r));
+  const Comparison<2> c = compare(before, q, 0.05);
+  for (const Vec2& u : c.displacement) EXPECT_LT(norm(u), 1e-12);
+  EXPECT_EQ(c.contacts.kept_before.size() + c.distant.kept_before.size(), p.links.size());
+  EXPECT_NEAR(comparison_json(before, q, c, 0.05)["cell"]["shear"].get<double>(),
+              0.4 * p.cell->length[0] / p.cell->length[1], 1e-12);
+}
+
 TEST(Comparison, LinksThatComeAndGoAreNamedByTheirGrains) {
   Packing<2> before = hinge(0), after = hinge(0);
   std::reverse(after.bodies.id.begin(), after.bodies.id.end());  // grain 0 is where 4 was

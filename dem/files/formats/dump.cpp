@@ -25,12 +25,15 @@ template <int D>
 std::string frame_header(const Packing<D>& packing, std::int64_t step, std::string_view items, std::size_t count) {
   std::string text = "ITEM: TIMESTEP\n" + std::to_string(step) + "\nITEM: NUMBER OF " + std::string(items) + "\n" +
                      std::to_string(count) + "\nITEM: BOX BOUNDS";
+  const double tilt = packing.cell ? packing.cell->tilt : 0;
+  if (tilt != 0) text += " xy xz yz";
   for (int k = 0; k < 3; ++k) text += packing.cell && k < D ? " pp" : k < D ? " ff" : " pp";
   text += '\n';
   for (int k = 0; k < 3; ++k) {
     double low = -0.5, high = 0.5;  // of the unused axis of a planar packing
     if (k < D && packing.cell) {
       low = 0, high = packing.cell->length[k];
+      if (k == 0) low += std::min(0.0, tilt), high += std::max(0.0, tilt);  // of the box around the tilted cell
     } else if (k < D) {
       low = high = 0;
       for (std::size_t b = 0; b < packing.bodies.size(); ++b) {
@@ -41,6 +44,7 @@ std::string frame_header(const Packing<D>& packing, std::int64_t step, std::stri
     }
     append_real(text, low);
     append(text, high);
+    if (tilt != 0) append(text, k == 0 ? tilt : 0.0);
     text += '\n';
   }
   return text;
@@ -57,6 +61,7 @@ double number_or_throw(std::string_view text, const std::string& path, int line,
 struct Box {
   std::array<double, 3> low{}, high{};
   std::array<bool, 3> periodic{};
+  double tilt = 0;
 };
 
 // ITEM: BOX BOUNDS [xy xz yz] [pp pp pp]; with xy xz yz a line has a third number, the tilt.
@@ -66,9 +71,11 @@ Box parse_box(std::string_view item, Lines& lines, const std::string& path) {
   words.erase(words.begin(), words.begin() + 3);
   if (!words.empty() && words[0] == "abc")
     throw InputError(path, lines.number(), "BOX BOUNDS", std::string(item),
-                     "a cell of general edges is not read; LAMMPS writes a rectangular one without triclinic/general");
-  const bool tilted = words.size() >= 3 && words[0] == "xy";
+                     "a cell of general edges is not read; LAMMPS writes that of the plane without triclinic/general");
+  const bool tilted = words.size() >= 3 && words[0] == "xy" && words[1] == "xz" && words[2] == "yz";
   if (tilted) words.erase(words.begin(), words.begin() + 3);
+  if (words.size() > 3)
+    throw InputError(path, lines.number(), "BOX BOUNDS", std::string(item), "'pp pp pp' or 'xy xz yz pp pp pp'");
   for (std::size_t k = 0; k < 3; ++k) box.periodic[k] = words.size() == 3 && words[k] == "pp";
   for (std::size_t k = 0; k < 3; ++k) {
     std::string_view line;
@@ -82,10 +89,14 @@ Box parse_box(std::string_view item, Lines& lines, const std::string& path) {
     box.high[k] = number_or_throw(f[1], path, lines.number(), "BOX BOUNDS");
     if (!(box.high[k] > box.low[k]))
       throw InputError(path, lines.number(), "BOX BOUNDS", std::string(line), "must increase");
-    if (tilted && number_or_throw(f[2], path, lines.number(), "BOX BOUNDS") != 0)
-      throw InputError(path, lines.number(), "BOX BOUNDS", std::string(line),
-                       "the cell is tilted by " + std::string(f[2]) + "; only rectangular cells are read");
+    const double tilt = tilted ? number_or_throw(f[2], path, lines.number(), "BOX BOUNDS") : 0;
+    if (k == 0) box.tilt = tilt;
+    if (k > 0 && tilt != 0)
+      throw InputError(path, lines.number(), "BOX BOUNDS", std::string(line), "only xy may tilt a cell: xz = yz = 0");
   }
+  box.low[0] -= std::min(0.0, box.tilt), box.high[0] -= std::max(0.0, box.tilt);
+  if (!(box.high[0] > box.low[0]))
+    throw InputError(path, lines.number(), "BOX BOUNDS", "xy", "the bounds of x are those of the tilted cell");
   return box;
 }
 
@@ -214,6 +225,8 @@ DumpFrame parse_dump(std::string given, const std::string& path, const ColumnNam
   const std::array<std::string, 3> axes{"x", "y", "z"};
   for (std::size_t k = 0; k < 3; ++k) {
     const double edge = box.high[k] - box.low[k];
+    if (box.tilt != 0 && (table.column(axes[k] + "s") || table.column(axes[k] + "su")))
+      throw InputError(path, 0, axes[k] + "s", "", "scaled coordinates of a tilted cell; write x, y");
     rename(table, axes[k] + "u", axes[k]);
     unscale(table, axes[k] + "s", axes[k], edge, box.low[k]);
     unscale(table, axes[k] + "su", axes[k], edge, box.low[k]);
@@ -225,6 +238,7 @@ DumpFrame parse_dump(std::string given, const std::string& path, const ColumnNam
   if (periodic != 0) {
     frame.box.emplace();
     for (std::size_t k = 0; k < 3; ++k) frame.box->push_back(box.high[k] - box.low[k]);
+    frame.tilt = box.tilt;
   }
   return frame;
 }

@@ -22,12 +22,13 @@ std::string links_dump(const Packing<D>& packing, std::int64_t step);
 std::string links_dump_path(std::string_view path);
 
 // The last frame of a dump. Positions are x, y, z, or xu, yu, zu, or the scaled xs, ys, zs (xsu, ysu, zsu). `box`:
-// edges along the axes with a periodic boundary ("pp"); a cell periodic along some of the packing's axes only, or
-// tilted, is refused.
+// edges along the axes with a periodic boundary ("pp"), of the cell itself where LAMMPS gives the box around a tilted
+// one; a cell periodic along some of the packing's axes only, or tilted otherwise than by xy, is refused.
 struct DumpFrame {
   TextTable table;
   std::optional<std::int64_t> step;
   std::optional<std::vector<double>> box;  // [length] three edges
+  double tilt = 0;                         // xy
 };
 DumpFrame parse_dump(std::string text, const std::string& path, const ColumnNames& named = {});
 

@@ -88,8 +88,9 @@ bool is_known(const std::string& key) {
     DiskLaw disks;
     SphereLaw spheres;
     transfer_law(io, disks), transfer_law(io, spheres);
-    for (const char* name : {"system", "time", "step", "cell", "reference_length", "strain_rate", "imposed_stress",
-                             "masses", "density", "mass", "inertia"})
+    for (const char* name :
+         {"system", "time", "step", "cell", "reference_length", "strain_rate", "imposed_stress", "tilt",
+          "shear_strain_rate", "imposed_shear_stress", "masses", "density", "mass", "inertia"})
       io.names.emplace_back(name);
     return io.names;
   }();
@@ -148,6 +149,10 @@ std::string header_text(const State<System>& state) {
     std::transform(state.imposed_stress.begin(), state.imposed_stress.end(), stress.begin(),
                    [](const std::optional<double>& s) { return s.value_or(NAN); });
     text += "imposed_stress = " + list_text(stress) + "\n";
+    if (state.packing.cell->tilt != 0) text += "tilt = " + number_text(state.packing.cell->tilt) + "\n";
+    if (state.cell_motion.shear_strain_rate != 0)
+      text += "shear_strain_rate = " + number_text(state.cell_motion.shear_strain_rate) + "\n";
+    if (state.imposed_stress.shear) text += "imposed_shear_stress = " + number_text(*state.imposed_stress.shear) + "\n";
   }
   text += mass_lines(state);
   if (!has_law(state)) return text;
@@ -202,6 +207,13 @@ std::optional<std::vector<double>> PackingHeader::cell() const {
   return found == numbers_.end() ? std::nullopt : std::optional(found->second);
 }
 
+double PackingHeader::tilt() const {
+  const auto found = numbers_.find("tilt");
+  if (found == numbers_.end()) return 0;
+  if (found->second.size() != 1) refuse("tilt", "must be a number");
+  return found->second[0];
+}
+
 template <class System>
 void PackingHeader::complete(State<System>& state) const {
   constexpr int D = System::dimension;
@@ -229,6 +241,9 @@ void PackingHeader::complete(State<System>& state) const {
   if (const auto* v = list("imposed_stress", D))
     for (std::size_t a = 0; a < D; ++a)
       state.imposed_stress[a] = std::isnan((*v)[a]) ? std::nullopt : std::optional((*v)[a]);
+
+  state.cell_motion.shear_strain_rate = real("shear_strain_rate").value_or(0);
+  state.imposed_stress.shear = real("imposed_shear_stress");
 
   Bodies<D>& bodies = state.packing.bodies;
   const auto rule = texts_.find("masses");

@@ -21,6 +21,7 @@ class PackingHeader {
   PackingHeader(std::string_view toml, std::string path);
 
   std::optional<std::vector<double>> cell() const;
+  double tilt() const;  // of that cell
   // Gives the state all but the cell. Throws InputError if it is of another system, incomplete or out of range.
   template <class System>
   void complete(State<System>& state) const;

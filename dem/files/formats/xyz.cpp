@@ -19,7 +19,10 @@ std::string extended_xyz(const Packing<D>& packing, double time) {
     for (int row = 0; row < 3; ++row)
       for (int col = 0; col < 3; ++col) {
         if (row + col > 0) text += ' ';
-        append_real(text, row != col ? 0.0 : row < D ? packing.cell->length[row] : 1.0);
+        append_real(text, row == 1 && col == 0 ? packing.cell->tilt
+                          : row != col         ? 0.0
+                          : row < D            ? packing.cell->length[row]
+                                               : 1.0);
       }
     text += "\" ";
   }
