@@ -229,7 +229,7 @@ class SampleRun {
       hooks.observe = [this](const State<System>& s) { series_->add(series_columns(s, job_.scene.output.energies)); };
       hooks.observe_interval = o.series_interval;
     }
-    if (!o.snapshot_times.empty() || !o.snapshot_solid_fractions.empty())
+    if (o.keeps_snapshots())
       hooks.snapshot = [this, count = snapshots_before(state.time)](const State<System>& s) mutable {
         write(s, snapshot(++count));
       };

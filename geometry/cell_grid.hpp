@@ -16,12 +16,13 @@ template <int D>
 struct Frame {
   Vec<D> origin{}, length{};
   bool periodic = false;
+  double slant = 0;  // [-] x per y of the edges that are not along x
 };
 
 // The cell itself, or without one the smallest box that holds the positions.
 template <int D>
 Frame<D> frame_of(const std::optional<PeriodicCell<D>>& cell, const std::vector<Vec<D>>& position) {
-  if (cell) return {Vec<D>{}, cell->length, true};
+  if (cell) return {Vec<D>{}, cell->length, true, cell->slant()};
   Frame<D> box;
   for (int k = 0; k < D && !position.empty(); ++k) {
     const auto [low, high] = std::minmax_element(position.begin(), position.end(),
@@ -32,16 +33,18 @@ Frame<D> frame_of(const std::optional<PeriodicCell<D>>& cell, const std::vector<
 }
 
 // Grid cells at least as wide as the cutoff (one at least), and not many more of them than bodies: a frame may be far
-// larger than what is in it.
+// larger than what is in it. In a slanted frame columns of the first axis lean with it: what they are asked by is
+// x - slant y.
 template <int D>
 class CellGrid {
  public:
-  CellGrid(const Frame<D>& frame, double cutoff, std::size_t bodies) : origin_(frame.origin) {
+  CellGrid(const Frame<D>& frame, double cutoff, std::size_t bodies)
+      : origin_(frame.origin), slant_(frame.slant), lean_(std::sqrt(1 + slant_ * slant_)) {
     std::array<double, D> wanted;
     double cells = 1;
     for (int k = 0; k < D; ++k) {
       const auto u = static_cast<std::size_t>(k);
-      wanted[u] = std::clamp(frame.length[k] / cutoff, 1.0, kMostColumns);
+      wanted[u] = std::clamp(frame.length[k] / (k == 0 ? lean_ * cutoff : cutoff), 1.0, kMostColumns);
       cells *= std::floor(wanted[u]);
     }
     const double most = std::max(kCellsPerBody * static_cast<double>(bodies), kAlwaysAllowed);
@@ -52,9 +55,12 @@ class CellGrid {
       inverse_[u] = frame.length[k] > 0 ? count_[u] / frame.length[k] : 0.0;
     }
   }
+  bool upright() const { return slant_ == 0; }
   int count(int axis) const { return count_[static_cast<std::size_t>(axis)]; }
-  double width(int axis) const { return 1 / inverse_[static_cast<std::size_t>(axis)]; }  // infinite in a flat frame
-  double coordinate(double x, int axis) const {                                          // in columns
+  double width(int axis) const {  // across the columns; infinite in a flat frame
+    return 1 / ((axis == 0 ? lean_ : 1.0) * inverse_[static_cast<std::size_t>(axis)]);
+  }
+  double coordinate(double x, int axis) const {  // in columns
     return (x - origin_[axis]) * inverse_[static_cast<std::size_t>(axis)];
   }
   int column(double x, int axis) const {
@@ -70,7 +76,7 @@ class CellGrid {
   }
   std::array<int, D> columns(const Vec<D>& r) const {
     std::array<int, D> at;
-    for (int k = 0; k < D; ++k) at[static_cast<std::size_t>(k)] = column(r[k], k);
+    for (int k = 0; k < D; ++k) at[static_cast<std::size_t>(k)] = column(k == 0 ? r[0] - slant_ * r[1] : r[k], k);
     return at;
   }
   std::size_t index(const Vec<D>& r) const { return index(columns(r)); }
@@ -83,6 +89,7 @@ class CellGrid {
  private:
   static constexpr double kMostColumns = 30000, kCellsPerBody = 16, kAlwaysAllowed = 65536;
   Vec<D> origin_;
+  double slant_, lean_;  // lean: how much longer a column's edge is than its height
   std::array<int, D> count_{};
   std::array<double, D> inverse_{};
 };

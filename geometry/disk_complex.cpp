@@ -27,17 +27,20 @@ double jitter(std::uint64_t n) {
 struct Auxiliary {
   int nx, ny;
   Vec2 spacing;
+  double lean;    // of a row against the one below, in a tilted cell
   double cover;   // every point of the plane is at most this far from an auxiliary site
   double weight;  // negative
 };
 
-Auxiliary auxiliary_lattice(const Vec2& length, std::size_t disks) {
+Auxiliary auxiliary_lattice(const PeriodicCell<2>& cell, std::size_t disks) {
+  const Vec2 length = cell.length;
   const double mean = std::sqrt(length[0] * length[1] / static_cast<double>(disks));
   Auxiliary a;
   a.nx = std::max(1, static_cast<int>(std::lround(length[0] / (kAuxiliarySpacing * mean))));
   a.ny = std::max(1, static_cast<int>(std::lround(length[1] / (kAuxiliarySpacing * mean))));
   a.spacing = {length[0] / a.nx, length[1] / a.ny};
-  a.cover = (0.5 + kAuxiliaryJitter) * norm(a.spacing);
+  a.lean = cell.tilt / a.ny;
+  a.cover = (0.5 + kAuxiliaryJitter) * norm(a.spacing + Vec2{{std::abs(a.lean), 0}});
   a.weight = -0x1p-20 * a.spacing[0] * a.spacing[1];
   return a;
 }
@@ -55,7 +58,7 @@ struct Work {
 void check(const Work& w) {
   if (w.centre.size() != w.radius.size()) throw std::invalid_argument("disk_complex: as many radii as centres");
   if (!(w.cell.length[0] > 0 && w.cell.length[1] > 0 && std::isfinite(w.cell.length[0]) &&
-        std::isfinite(w.cell.length[1])))
+        std::isfinite(w.cell.length[1]) && std::isfinite(w.cell.tilt)))
     throw std::invalid_argument("disk_complex: the cell's edges must be positive");
   if (!(w.tolerance >= 0 && std::isfinite(w.tolerance)))
     throw std::invalid_argument("disk_complex: the gap tolerance must not be negative");
@@ -71,14 +74,16 @@ double snapped(double x, double grid) { return std::nearbyint(x / grid) * grid; 
 void place_sites(Work& w, DiskComplex& out) {
   const std::size_t n = w.centre.size();
   const double largest = *std::max_element(w.radius.begin(), w.radius.end());
-  const auto aux = auxiliary_lattice(w.cell.length, n);
+  const auto aux = auxiliary_lattice(w.cell, n);
   // A face with a vertex in the cell has its orthocentre c within sqrt(rho + w_max) of it, and a site that could
   // contradict it lies as near to c on the other side; rho <= cover^2 - weight because of the auxiliary sites.
   const double reach = std::sqrt(aux.cover * aux.cover - aux.weight + largest * largest);
   w.sites.padding = 2.001 * reach;
-  const double extent = std::max(w.cell.length[0], w.cell.length[1]) + w.sites.padding;
+  const double extent = std::max(w.cell.length[0] + std::abs(w.cell.tilt), w.cell.length[1]) + w.sites.padding;
   const double grid = std::ldexp(1.0, std::ilogb(extent) + 1 - 52);
   w.sites.length = {snapped(w.cell.length[0], grid), snapped(w.cell.length[1], grid)};
+  w.sites.tilt = snapped(w.cell.tilt, grid);
+  const double slant = w.sites.tilt / w.sites.length[1];
 
   struct Placed {
     Vec2 at;
@@ -88,15 +93,19 @@ void place_sites(Work& w, DiskComplex& out) {
   std::vector<Placed> placed(n);
   for (std::size_t i = 0; i < n; ++i) {
     placed[i].input = static_cast<std::int32_t>(i);
+    const Vec2 fractions = w.cell.fractions(w.centre[i]);
+    const Vec2 cells{{std::floor(fractions[0]), std::floor(fractions[1])}};
+    Vec2& at = placed[i].at = w.centre[i];
     for (int k = 0; k < 2; ++k) {
-      const auto axis = static_cast<std::size_t>(k);
-      const double cells = std::floor(w.centre[i][k] / w.cell.length[k]);
-      double x = snapped(w.centre[i][k] - cells * w.cell.length[k], grid);
-      auto whole = static_cast<std::int64_t>(cells);
-      if (x < 0) x += w.sites.length[k], --whole;
-      if (x >= w.sites.length[k]) x -= w.sites.length[k], ++whole;
-      placed[i].at[k] = x;
-      placed[i].wrap[axis] = whole;
+      at[k] = snapped(at[k] - cells[k] * w.cell.length[k] - (k == 0 ? cells[1] * w.cell.tilt : 0.0), grid);
+      placed[i].wrap[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(cells[k]);
+    }
+    for (const int k : {1, 0}) {  // rounding may have taken it over an edge
+      const double from = k == 0 ? slant * at[1] : 0;
+      const int over = at[k] < from ? -1 : at[k] >= from + w.sites.length[k] ? 1 : 0;
+      at[k] -= over * w.sites.length[k];
+      if (k == 1) at[0] -= over * w.sites.tilt;
+      placed[i].wrap[static_cast<std::size_t>(k)] += over;
     }
   }
   std::vector<std::int32_t> order(n);
@@ -128,6 +137,7 @@ void place_sites(Work& w, DiskComplex& out) {
           2 * (static_cast<std::uint64_t>(iy) * static_cast<std::uint64_t>(aux.nx) + static_cast<std::uint64_t>(ix));
       Vec2 p{(ix + 0.5 + kAuxiliaryJitter * jitter(seed)) * aux.spacing[0],
              (iy + 0.5 + kAuxiliaryJitter * jitter(seed + 1)) * aux.spacing[1]};
+      p[0] += aux.lean / aux.spacing[1] * p[1];
       for (int k = 0; k < 2; ++k) p[k] = snapped(p[k], grid);
       w.sites.position.push_back(p);
       w.sites.weight.push_back(aux.weight);
@@ -136,7 +146,7 @@ void place_sites(Work& w, DiskComplex& out) {
 
 Vec2 image_position(const PeriodicSites& s, const SiteImage& v) {
   const auto& p = s.position[idx(v.site)];
-  return {p[0] + v.shift[0] * s.length[0], p[1] + v.shift[1] * s.length[1]};
+  return {p[0] + v.shift[0] * s.length[0] + v.shift[1] * s.tilt, p[1] + v.shift[1] * s.length[1]};
 }
 
 void classify_faces(const Work& w, DiskComplex& out) {
@@ -162,7 +172,7 @@ EdgeState classify_edge(const Work& w, const DiskComplex& c, std::int32_t i, std
   const auto &wi = w.wrap[idx(i)], &wj = w.wrap[idx(j.site)];
   const auto a = idx(c.input[idx(i)]), b = idx(c.input[idx(j.site)]);
   const auto reach_sign = [&](double radius_b, double tolerance) {
-    return gap_sign(w.centre[a], w.centre[b], j.shift[0] + wi[0] - wj[0], j.shift[1] + wi[1] - wj[1], w.cell.length,
+    return gap_sign(w.centre[a], w.centre[b], j.shift[0] + wi[0] - wj[0], j.shift[1] + wi[1] - wj[1], w.cell,
                     w.radius[a], radius_b, tolerance);
   };
   if (reach_sign(w.radius[b], w.tolerance) > 0) return EdgeState::open;

@@ -37,19 +37,21 @@ Real edge_centre_expression(const Real& dx, const Real& dy, const Real& tx, cons
 
 }  // namespace
 
-int gap_sign(const Vec2& p, const Vec2& q, std::int64_t nx, std::int64_t ny, const Vec2& length, double radius_p,
-             double radius_q, double tolerance) {
+int gap_sign(const Vec2& p, const Vec2& q, std::int64_t nx, std::int64_t ny, const PeriodicCell<2>& cell,
+             double radius_p, double radius_q, double tolerance) {
   const double cx = static_cast<double>(nx), cy = static_cast<double>(ny);
-  const double dx = (q[0] - p[0]) + cx * length[0], dy = (q[1] - p[1]) + cy * length[1];
+  const Vec2& length = cell.length;
+  const double dx = (q[0] - p[0]) + cx * length[0] + cy * cell.tilt, dy = (q[1] - p[1]) + cy * length[1];
   const double reach = radius_p + radius_q + tolerance;
   const double value = gap_expression(dx, dy, reach);
-  const double scale_x = std::abs(q[0]) + std::abs(p[0]) + std::abs(cx) * length[0];
+  const double scale_x = std::abs(q[0]) + std::abs(p[0]) + std::abs(cx) * length[0] + std::abs(cy * cell.tilt);
   const double scale_y = std::abs(q[1]) + std::abs(p[1]) + std::abs(cy) * length[1];
   // dx is off by at most 4 units of scale_x, hence dx^2 by 4 units of scale_x (2 |dx| + ...).
   const double bound = kRoundings * kUnit * (scale_x * std::abs(dx) + scale_y * std::abs(dy) + reach * reach) +
                        kRoundings * kUnit * kUnit * (scale_x * scale_x + scale_y * scale_y);
   if (std::abs(value) > bound) return sign(value);
-  const Rational ex = Rational(q[0]) - Rational(p[0]) + Rational(nx) * Rational(length[0]);
+  const Rational ex =
+      Rational(q[0]) - Rational(p[0]) + Rational(nx) * Rational(length[0]) + Rational(ny) * Rational(cell.tilt);
   const Rational ey = Rational(q[1]) - Rational(p[1]) + Rational(ny) * Rational(length[1]);
   return gap_expression<Rational>(ex, ey, Rational(radius_p) + Rational(radius_q) + Rational(tolerance)).sign();
 }

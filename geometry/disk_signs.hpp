@@ -3,14 +3,15 @@
 #pragma once
 #include <cstdint>
 
+#include "geometry/periodic_cell.hpp"
 #include "geometry/vec.hpp"
 
 namespace isostat {
 
-// Sign of |q + n L - p|^2 - (r_p + r_q + tolerance)^2; n = (nx, ny) whole cells. With -r_q it
-// tells whether one disk lies inside the other.
-int gap_sign(const Vec2& p, const Vec2& q, std::int64_t nx, std::int64_t ny, const Vec2& length, double radius_p,
-             double radius_q, double tolerance);
+// Sign of |q + n L - p|^2 - (r_p + r_q + tolerance)^2; n = (nx, ny) whole cells, n L = (nx L1 + ny tilt, ny L2). With
+// -r_q it tells whether one disk lies inside the other.
+int gap_sign(const Vec2& p, const Vec2& q, std::int64_t nx, std::int64_t ny, const PeriodicCell<2>& cell,
+             double radius_p, double radius_q, double tolerance);
 
 // Three sites at 0, a, b (exact differences, anticlockwise) of weights w0, wa, wb: sign of the power of the
 // orthocentre, (q_a b_y - q_b a_y)^2 + (a_x q_b - b_x q_a)^2 - 4 (a x b)^2 w0 with q_a = |a|^2 - w_a + w0.

@@ -38,7 +38,8 @@ struct FftwFree {
   void operator()(double* p) const { fftw_free(p); }
 };
 
-// Real grid, row by row along x, with room for its transform in place.
+// Real grid, row by row along x, with room for its transform in place. In a tilted cell each row stands further along
+// x than the one below, so that the nodes are a lattice of the cell.
 class Grid {
  public:
   Grid(std::int64_t nx, std::int64_t ny, const PeriodicCell<2>& cell)
@@ -46,6 +47,7 @@ class Grid {
         ny_(ny),
         stride_(2 * (nx / 2 + 1)),
         step_{cell.length[0] / static_cast<double>(nx), cell.length[1] / static_cast<double>(ny)},
+        slant_(cell.slant()),
         data_(fftw_alloc_real(static_cast<std::size_t>(stride_ * ny))) {
     if (!data_) throw std::bad_alloc();
     std::fill(data_.get(), data_.get() + stride_ * ny, 0.0);
@@ -83,13 +85,14 @@ class Grid {
  private:
   template <class Profile, class AddAt>
   void visit(const Vec2& centre, const Profile& profile, const AddAt& add_at) const {
-    const double reach = profile.reach(), cx = centre[0] / step_[0];
+    const double reach = profile.reach();
     const auto y0 = static_cast<std::int64_t>(std::ceil((centre[1] - reach) / step_[1]));
     const auto y1 = static_cast<std::int64_t>(std::floor((centre[1] + reach) / step_[1]));
     for (auto y = y0; y <= y1; ++y) {
       const double dy = static_cast<double>(y) * step_[1] - centre[1], dy2 = dy * dy, w2 = reach * reach - dy2;
       if (w2 < 0) continue;
       const double w = std::sqrt(w2) / step_[0];
+      const double cx = (centre[0] - slant_ * (static_cast<double>(y) * step_[1])) / step_[0];
       auto x = static_cast<std::int64_t>(std::ceil(cx - w));
       const auto x1 = static_cast<std::int64_t>(std::floor(cx + w));
       const auto row = stride_ * modulo(y, ny_);
@@ -111,6 +114,7 @@ class Grid {
   }
   std::int64_t nx_, ny_, stride_;
   Vec2 step_;
+  double slant_;
   std::unique_ptr<double, FftwFree> data_;
 };
 
@@ -205,7 +209,9 @@ DiskTransform empty_transform(const PeriodicCell<2>& cell, double k_max, const P
   DiskTransform out;
   out.cell = cell, out.k_max = k_max;
   out.mx_max = static_cast<std::int64_t>(std::floor(p.modes_x)),
-  out.my_max = static_cast<std::int64_t>(std::floor(p.modes_y));
+  // ky = 2 pi (my - mx tilt/L1) / L2
+      out.my_max = static_cast<std::int64_t>(
+          std::floor(p.modes_y + static_cast<double>(out.mx_max) * std::abs(cell.tilt) / cell.length[0]));
   out.value.assign(static_cast<std::size_t>((out.mx_max + 1) * (2 * out.my_max + 1)), 0.0);
   return out;
 }
@@ -238,7 +244,7 @@ DiskTransform transform_of_walls(const WallPoints& walls, const PeriodicCell<2>&
   const auto collect_along = [&](Grid& grid, int axis) {
     grid.transform();
     collect(grid, p, out, [&](std::int64_t mx, std::int64_t my, double k2) {
-      const double k = 2 * kPi * static_cast<double>(axis == 0 ? mx : my) / cell.length[axis];
+      const double k = out.k(mx, my)[axis];
       return k2 > 0 ? std::complex<double>(0, k / k2) : 0.0;
     });
   };
@@ -249,10 +255,14 @@ DiskTransform transform_of_walls(const WallPoints& walls, const PeriodicCell<2>&
 
 }  // namespace
 
+Vec2 DiskTransform::k(std::int64_t mx, std::int64_t my) const {
+  const double row = static_cast<double>(my) - static_cast<double>(mx) * cell.tilt / cell.length[0];
+  return {{2 * kPi * static_cast<double>(mx) / cell.length[0], 2 * kPi * row / cell.length[1]}};
+}
+
 double DiskTransform::k2(std::int64_t mx, std::int64_t my) const {
-  const double kx = 2 * kPi * static_cast<double>(mx) / cell.length[0],
-               ky = 2 * kPi * static_cast<double>(my) / cell.length[1];
-  return kx * kx + ky * ky;
+  const Vec2 wave = k(mx, my);
+  return wave[0] * wave[0] + wave[1] * wave[1];
 }
 
 DiskTransform disk_transform(std::span<const Vec2> centre, std::span<const double> radius, const PeriodicCell<2>& cell,

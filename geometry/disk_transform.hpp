@@ -17,7 +17,7 @@ struct TransformOptions {
   bool correct_overlaps = true;  // false: overlaps count twice (a plain sum over disks)
 };
 
-// chi_hat(k) = integral of chi exp(-i k.r) [length^2] at k = 2 pi (mx / L1, my / L2).
+// chi_hat(k) = integral of chi exp(-i k.r) [length^2] at k = 2 pi (mx / L1, (my - mx tilt / L1) / L2).
 struct DiskTransform {
   PeriodicCell<2> cell;
   double k_max = 0;
@@ -28,6 +28,7 @@ struct DiskTransform {
     if (mx < 0) return std::conj(at(-mx, -my));
     return value[static_cast<std::size_t>(mx * (2 * my_max + 1) + my + my_max)];
   }
+  Vec2 k(std::int64_t mx, std::int64_t my) const;     // [1/length]
   double k2(std::int64_t mx, std::int64_t my) const;  // |k|^2 [1/length^2]
 };
 

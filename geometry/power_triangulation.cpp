@@ -43,15 +43,15 @@ struct SortTraits {  // what spatial_sort asks of points
 std::vector<Candidate> padded(const PeriodicSites& sites) {
   std::vector<Candidate> all;
   const Vec2 length = sites.length;
-  const double pad = sites.padding;
-  const int reach_x = static_cast<int>(std::ceil(pad / length[0])),
+  const double pad = sites.padding, slant = sites.tilt / length[1], pad_x = pad * std::sqrt(1 + slant * slant);
+  const int reach_x = static_cast<int>(std::ceil(pad_x / length[0])),
             reach_y = static_cast<int>(std::ceil(pad / length[1]));
   for (std::size_t i = 0; i < sites.position.size(); ++i)
     for (int sx = -reach_x; sx <= reach_x; ++sx) {
-      const double x = sites.position[i][0] + sx * length[0];
-      if (x < -pad || x > length[0] + pad) continue;
+      const double along = sites.position[i][0] + sx * length[0], from_edge = along - slant * sites.position[i][1];
+      if (from_edge < -pad_x || from_edge > length[0] + pad_x) continue;
       for (int sy = -reach_y; sy <= reach_y; ++sy) {
-        const double y = sites.position[i][1] + sy * length[1];
+        const double x = along + sy * sites.tilt, y = sites.position[i][1] + sy * length[1];
         if (y < -pad || y > length[1] + pad) continue;
         all.push_back({WeightedPoint({x, y}, sites.weight[i]), {static_cast<std::int32_t>(i), {sx, sy}}});
       }

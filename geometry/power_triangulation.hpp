@@ -14,11 +14,12 @@
 
 namespace isostat {
 
-// Sites whose images are exact: every coordinate, and both edges of the cell, are multiples of one power of two, so
+// Sites whose images are exact: every coordinate, and the edges of the cell, are multiples of one power of two, so
 // that position + shift * length is a double without rounding for the images within `padding` of the cell.
 struct PeriodicSites {
-  Vec2 length{};               // cell edges
-  std::vector<Vec2> position;  // in [0, length), distinct
+  Vec2 length{};  // cell edges (L1, 0), (tilt, L2)
+  double tilt = 0;
+  std::vector<Vec2> position;  // in the cell, distinct
   std::vector<double> weight;  // [length^2], may be negative
   double padding = 0;          // no image further from the cell can touch a face that has a vertex in it
 };
@@ -29,7 +30,7 @@ struct SiteImage {
   friend bool operator==(const SiteImage&, const SiteImage&) = default;
 };
 
-// The star of each site in [0, length): its neighbours anticlockwise, and the face between each one and the next.
+// The star of each site in the cell: its neighbours anticlockwise, and the face between each one and the next.
 struct PowerTriangulation {
   std::vector<std::int32_t> first;              // star of site i: slots first[i] .. first[i+1]-1; empty: hidden site
   std::vector<SiteImage> neighbour;             // per slot

@@ -21,7 +21,8 @@ std::optional<std::vector<Pair>> overlapping_pairs(std::span<const Vec2> centre,
   constexpr double kMostPerBin = 40;
   const double largest = *std::max_element(radius.begin(), radius.end());
   if (!(largest > 0)) return std::vector<Pair>{};
-  const double bins_x = std::floor(cell.length[0] / (2 * largest)), bins_y = std::floor(cell.length[1] / (2 * largest));
+  const Vec2 spacing = cell.spacing();
+  const double bins_x = std::floor(spacing[0] / (2 * largest)), bins_y = std::floor(spacing[1] / (2 * largest));
   if (bins_x < 3 || bins_y < 3 || static_cast<double>(centre.size()) > kMostPerBin * bins_x * bins_y)
     return std::nullopt;
   const double most = std::ceil(std::sqrt(static_cast<double>(centre.size()))) + 3;
@@ -31,8 +32,9 @@ std::optional<std::vector<Pair>> overlapping_pairs(std::span<const Vec2> centre,
       member(at.size());
   for (std::size_t i = 0; i < at.size(); ++i) {
     at[i] = cell.wrap(at[i]);
-    const int x = std::min(nx - 1, static_cast<int>(at[i][0] / cell.length[0] * nx)),
-              y = std::min(ny - 1, static_cast<int>(at[i][1] / cell.length[1] * ny));
+    const Vec2 f = cell.fractions(at[i]);
+    const int x = std::clamp(static_cast<int>(f[0] * nx), 0, nx - 1),
+              y = std::clamp(static_cast<int>(f[1] * ny), 0, ny - 1);
     bin[i] = y * nx + x;
     ++first[idx(bin[i]) + 1];
   }
@@ -45,12 +47,7 @@ std::optional<std::vector<Pair>> overlapping_pairs(std::span<const Vec2> centre,
       for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) {
           const int ox = x + dx, oy = y + dy;
-          const Vec2 move{ox < 0     ? -cell.length[0]
-                          : ox >= nx ? cell.length[0]
-                                     : 0,
-                          oy < 0     ? -cell.length[1]
-                          : oy >= ny ? cell.length[1]
-                                     : 0};
+          const Vec2 move = cell.offset({ox < 0 ? -1 : ox >= nx ? 1 : 0, oy < 0 ? -1 : oy >= ny ? 1 : 0});
           const auto here = idx(y * nx + x), there = idx(((oy + ny) % ny) * nx + (ox + nx) % nx);
           for (auto a = first[here]; a < first[here + 1]; ++a)
             for (auto b = first[there]; b < first[there + 1]; ++b) {

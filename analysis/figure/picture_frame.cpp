@@ -22,7 +22,9 @@ Extent extent_of(const Packing<2>& packing, double margin) {
     if (grains == 0 || is_free(packing.part, k))
       extent.diameter += 2 * b.radius[k] / static_cast<double>(grains == 0 ? b.size() : grains);
   if (packing.cell) {
-    extent.high = packing.cell->length;
+    const double tilt = packing.cell->tilt;
+    extent.low[0] = std::min(0.0, tilt);
+    extent.high = packing.cell->length + Vec2{{std::max(0.0, tilt), 0}};
     return extent;
   }
   extent.low = extent.high = b.position[0];
@@ -54,6 +56,14 @@ PictureFrame::PictureFrame(const Extent& own, const Extent& whole)
   inset_ = 0.5 * (room - size_);
   const double longer = std::max(room[0], room[1]);
   scale_ = std::clamp(kDiameterOnPage / mean_diameter_ * longer, whole.smallest_edge, kLargestEdge) / longer;
+}
+
+std::optional<Polygon> PictureFrame::tilted_cell() const {
+  if (!cell_ || cell_->tilt == 0) return std::nullopt;
+  Polygon corners;
+  for (const Vec2& f : {Vec2{{0, 0}}, Vec2{{1, 0}}, Vec2{{1, 1}}, Vec2{{0, 1}}})
+    corners.push_back(page(cell_->point(f)));
+  return corners;
 }
 
 }  // namespace isostat

@@ -1,5 +1,6 @@
 // The window of a picture: the periodic cell, or the box around an isolated packing, and its place on the page.
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -10,7 +11,7 @@ namespace isostat {
 
 // What a packing takes up, in its own units of length.
 struct Extent {
-  std::optional<PeriodicCell<2>> cell;  // low is then the origin
+  std::optional<PeriodicCell<2>> cell;  // the window is then the rectangle around it
   Vec2 low{}, high{};                   // corners of the window
   double diameter = 0;                  // mean of the grains
   bool cut = false;                     // what stands out of the window is cut off; a cell always cuts
@@ -43,6 +44,8 @@ class PictureFrame {
   Vec2 page(const Vec2& r) const {  // [pt] of a point of the packing; y turns over
     return {{place_[0] + scale_ * (r[0] - origin_[0]), place_[1] + scale_ * (size_[1] - (r[1] - origin_[1]))}};
   }
+  std::optional<Polygon> tilted_cell() const;  // [pt] its corners, if it is no rectangle
+
   Vec2 wrap(const Vec2& r) const { return cell_ ? cell_->wrap(r) : r; }
 
   // Calls draw(offset) for each lattice offset at which something inside [low, high] shows in the window.
@@ -50,6 +53,13 @@ class PictureFrame {
   void for_visible_images(const Vec2& low, const Vec2& high, Draw&& draw) const {
     if (!cell_) return draw(Vec2{});
     const auto& l = cell_->length;
+    if (const double tilt = cell_->tilt; tilt != 0) {
+      const double left = std::min(0.0, tilt), right = l[0] + std::max(0.0, tilt);
+      for (double n = std::floor(-high[1] / l[1]) + 1; low[1] + n * l[1] < l[1]; ++n)
+        for (double m = std::floor((left - high[0] - n * tilt) / l[0]) + 1; low[0] + n * tilt + m * l[0] < right; ++m)
+          draw(Vec2{{n * tilt + m * l[0], n * l[1]}});
+      return;
+    }
     for (double m = std::floor(-high[0] / l[0]) + 1; low[0] + m * l[0] < l[0]; ++m)
       for (double n = std::floor(-high[1] / l[1]) + 1; low[1] + n * l[1] < l[1]; ++n) draw(Vec2{{m * l[0], n * l[1]}});
   }

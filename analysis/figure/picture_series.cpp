@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <vector>
 
 #include "analysis/figure/fading_canvas.hpp"
 #include "analysis/figure/nice_numbers.hpp"
@@ -71,6 +72,21 @@ void PictureSeries::lay_out(const RichText& length_unit, const std::optional<Vec
   page_ = *page;
 }
 
+namespace {
+
+// What shows beyond its slanted edges is covered: the corners of a cell are lower left, lower right, and so round.
+void draw_tilted(Canvas& canvas, const Polygon& cell, const Paint& edge) {
+  const bool to_right = cell[3][0] > cell[0][0];
+  const Vec2 &left_far = to_right ? cell[3] : cell[0], &right_far = to_right ? cell[1] : cell[2];
+  const Vec2 left{{std::min(cell[0][0], cell[3][0]), left_far[1]}},
+      right{{std::max(cell[1][0], cell[2][0]), right_far[1]}};
+  const std::vector<Polygon> beyond{{cell[0], cell[3], left}, {cell[1], cell[2], right}};
+  canvas.polygons(beyond, {kWhite, Stroke{kWhite, 0.9, {}}});
+  canvas.polygons(std::vector<Polygon>{cell}, edge);
+}
+
+}  // namespace
+
 void PictureSeries::draw_window(Canvas& canvas, std::size_t k) const {
   const PictureFrame& frame = frames_[k];
   if (frame.cuts()) canvas.clip(frame.box());
@@ -78,7 +94,11 @@ void PictureSeries::draw_window(Canvas& canvas, std::size_t k) const {
   if (frame.cuts()) canvas.unclip();
   if (!frame.periodic()) return;
   canvas.begin_group("cell");
-  canvas.rectangle(frame.box(), {std::nullopt, Stroke{kInk, 0.9, {}}});
+  const Paint edge{std::nullopt, Stroke{kInk, 0.9, {}}};
+  if (const auto cell = frame.tilted_cell())
+    draw_tilted(canvas, *cell, edge);
+  else
+    canvas.rectangle(frame.box(), edge);
   canvas.end_group();
 }
 

@@ -73,6 +73,7 @@ class Settling {
         watch_(watch) {
     for (const auto& stress : request.stress)
       if (stress) scale_ = std::max(scale_, std::abs(*stress));
+    if (request.stress.shear) scale_ = std::max(scale_, std::abs(*request.stress.shear));
     scale_ = std::max(scale_, s_.law.attraction);
     if (!(scale_ > 0)) scale_ = 1;
     const Vec2& length = network_.extent();

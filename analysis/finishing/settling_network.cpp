@@ -45,7 +45,10 @@ Yielding clamped(double trial, double limit) {
 }  // namespace
 
 SettlingNetwork::SettlingNetwork(const State<Disks>& state, const FinishingRequest<2>& request)
-    : law_(state.law), stress_(request.stress), periodic_(state.packing.cell.has_value()) {
+    : law_(state.law),
+      stress_{request.stress[0], request.stress[1], request.stress.shear},
+      periodic_(state.packing.cell.has_value()),
+      tilts_(request.stress.shear || (periodic_ && state.packing.cell->tilt != 0)) {
   const Frame<2> frame = frame_of(state.packing.cell, state.packing.bodies.position);
   length_ = frame.length;
   const Bodies<2>& b = state.packing.bodies;
@@ -63,11 +66,13 @@ SettlingNetwork::SettlingNetwork(const State<Disks>& state, const FinishingReque
     smallest_ = std::min(smallest_, 2 * b.radius[k]), largest_ = std::max(largest_, 2 * b.radius[k]);
   }
   largest_step_ = kLargestStep * smallest_, skin_ = kSkin * smallest_;
+  if (periodic_) tilt_ = state.packing.cell->tilt;
   if (!periodic_) length_ += Vec2{{largest_, largest_}};
   width_ = std::sqrt(area());
-  for (int a = 0; a < 2; ++a)
-    if (stress_[at(a)]) {
-      directions_.push_back(a);
+  for (int direction = 0; direction <= kShear; ++direction)
+    if (stress_[at(direction)]) {
+      const int a = branch_axis(direction);
+      directions_.push_back(direction);
       inertia_.push_back(request.cell_inertia * area() / (width_ * width_) * length_[a] /
                          state.cell_motion.reference_length[a]);
     }
@@ -92,9 +97,10 @@ std::vector<double> SettlingNetwork::velocities(const State<Disks>& state) const
     if (law_.friction > 0 || law_.rolling_friction > 0) v[3 * r + 2] = b.spin[k];
   }
   for (std::size_t s = 0; s < directions_.size(); ++s) {
-    const int a = directions_[s];
-    v[3 * grains() + s] =
-        width_ * state.cell_motion.strain_rate[a] * state.cell_motion.reference_length[a] / length_[a];
+    const int a = branch_axis(directions_[s]);
+    const CellMotion<2>& motion = state.cell_motion;
+    const double rate = directions_[s] == kShear ? motion.shear_strain_rate : motion.strain_rate[a];
+    v[3 * grains() + s] = width_ * rate * motion.reference_length[a] / length_[a];
   }
   return v;
 }
@@ -107,7 +113,7 @@ void SettlingNetwork::refresh() {
   std::sort(springs.begin(), springs.end(), [](const Spring& a, const Spring& b) { return key(a) < key(b); });
 
   Packing<2> packing;
-  if (periodic_) packing.cell = PeriodicCell<2>{length_};
+  if (periodic_) packing.cell = PeriodicCell<2>{length_, tilt_};
   packing.bodies.resize(grains());
   packing.bodies.position = position_, packing.bodies.radius = radius_;
   pairs_.clear();
@@ -120,14 +126,14 @@ void SettlingNetwork::refresh() {
     if (found != springs.end() && key(*found) == key(probe)) p.tangential = found->tangential, p.moment = found->moment;
     pairs_.push_back(p);
   }
-  listed_at_ = position_, listed_length_ = length_;
+  listed_at_ = position_, listed_length_ = length_, listed_tilt_ = tilt_;
   remember_branches();
   for (Pair& p : pairs_) p.coupled = p.gap < law_.attraction_range || p.gap < 0;
   make_pattern();
 }
 
 void SettlingNetwork::remember_branches() {
-  const PeriodicCell<2> cell{length_};
+  const PeriodicCell<2> cell{length_, tilt_};
   for (Pair& p : pairs_) {
     p.branch = position_[at(p.j)] + cell.offset(p.shift) - position_[at(p.i)];
     p.gap = norm(p.branch) - radius_[at(p.i)] - radius_[at(p.j)];
@@ -240,24 +246,27 @@ SettlingNetwork::Response SettlingNetwork::respond(const Pair& p, const Vec2& r,
 
 const std::vector<double>& SettlingNetwork::forces(const std::vector<double>& step, Links links) {
   const std::size_t strain = 3 * grains();
-  scale_ = {1, 1};
+  scale_ = {1, 1}, lean_ = 0;
   for (std::size_t s = 0; s < directions_.size(); ++s)
-    scale_[at(directions_[s])] = std::exp(-step[strain + s] / width_);
+    if (directions_[s] == kShear)
+      lean_ = step[strain + s] / width_;
+    else
+      scale_[at(directions_[s])] = std::exp(-step[strain + s] / width_);
   force_.assign(size(), 0.0);
   touching_.assign(grains(), 0);
   response_.resize(pairs_.size());
-  std::array<double, 2> virial{};
+  std::array<double, 3> virial{};
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     const Pair& p = pairs_[k];
     const std::size_t i = 3 * at(p.i), j = 3 * at(p.j);
-    const Vec2 r{
-        {scale_[0] * (p.branch[0] + (step[j] - step[i])), scale_[1] * (p.branch[1] + (step[j + 1] - step[i + 1]))}};
+    const double x = p.branch[0] + (step[j] - step[i]), y = p.branch[1] + (step[j + 1] - step[i + 1]);
+    const Vec2 r{{scale_[0] * (x - lean_ * y), scale_[1] * y}};
     const Response& s = response_[k] = respond(p, r, step[i + 2], step[j + 2], links);
     if (!s.active) continue;
     const LinkLoad<double> load = link_load(s.frame, s.normal, s.tangential, s.moment);
     force_[j] += load.fx, force_[j + 1] += load.fy, force_[j + 2] += load.moment_j;
     force_[i] -= load.fx, force_[i + 1] -= load.fy, force_[i + 2] += load.moment_i;
-    virial[0] += load.fx * r[0], virial[1] += load.fy * r[1];
+    virial[0] += load.fx * r[0], virial[1] += load.fy * r[1], virial[kShear] += load.fx * r[1];
     touching_[at(p.i)] = touching_[at(p.j)] = 1;
   }
   all_count_ = law_.attraction > 0 || std::none_of(touching_.begin(), touching_.end(), [](char t) { return t; });
@@ -299,7 +308,7 @@ SettlingNetwork::Tangent SettlingNetwork::tangent(const Pair& p, const Response&
 std::vector<double> SettlingNetwork::stiffness_times(const std::vector<double>& x) const {
   const std::size_t strain = 3 * grains();
   std::vector<double> y(size(), 0.0);
-  std::array<double, 2> e{}, edge{};
+  std::array<double, 3> e{}, edge{};
   for (std::size_t s = 0; s < directions_.size(); ++s) e[at(directions_[s])] = x[strain + s] / width_;
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     const Response& s = response_[k];
@@ -308,7 +317,9 @@ std::vector<double> SettlingNetwork::stiffness_times(const std::vector<double>& 
     const LinkFrame<double>& f = s.frame;
     const std::size_t i = 3 * at(p.i), j = 3 * at(p.j);
     const double rx = f.nx * f.distance, ry = f.ny * f.distance;
-    const double dx = scale_[0] * (x[j] - x[i]) - rx * e[0], dy = scale_[1] * (x[j + 1] - x[i + 1]) - ry * e[1];
+    const double dx = scale_[0] * ((x[j] - x[i]) - lean_ * (x[j + 1] - x[i + 1])) - rx * e[0] -
+                      scale_[0] / scale_[1] * ry * e[kShear];
+    const double dy = scale_[1] * (x[j + 1] - x[i + 1]) - ry * e[1];
     const std::array<double, 4> q{f.nx * dx + f.ny * dy, f.nx * dy - f.ny * dx, x[i + 2], x[j + 2]};
     const Tangent t = tangent(p, s, false);
     std::array<double, 4> g{};
@@ -319,6 +330,7 @@ std::vector<double> SettlingNetwork::stiffness_times(const std::vector<double>& 
     y[i] -= fx, y[i + 1] -= fy, y[i + 2] += g[2];
     edge[0] += -fx * rx + (s.normal * f.nx - s.tangential * f.ny) * dx;
     edge[1] += -fy * ry + (s.normal * f.ny + s.tangential * f.nx) * dy;
+    edge[kShear] += -fx * ry + (s.normal * f.nx - s.tangential * f.ny) * dy;
   }
   const double trial_area = area() * scale_[0] * scale_[1];
   for (std::size_t s = 0; s < directions_.size(); ++s) {
@@ -341,13 +353,15 @@ const SymmetricMatrix& SettlingNetwork::shifted_stiffness(double shift) {
     const LinkFrame<double>& f = s.frame;
     const Tangent t = tangent(p, s, true);
     // B: rows of (normal, tangential, theta_i, theta_j) by (u_i, theta_i, u_j, theta_j, strains).
-    double b[4][8] = {{-f.nx, -f.ny, 0, f.nx, f.ny, 0}, {f.ny, -f.nx, 0, -f.ny, f.nx, 0}};
+    double b[4][9] = {{-f.nx, -f.ny, 0, f.nx, f.ny, 0}, {f.ny, -f.nx, 0, -f.ny, f.nx, 0}};
     b[2][2] = 1, b[3][5] = 1;
     for (std::size_t q = 0; q < strains; ++q) {
-      const double n = directions_[q] == 0 ? f.nx : f.ny, tau = directions_[q] == 0 ? -f.ny : f.nx;
-      b[0][6 + q] = -n * n * f.distance / width_, b[1][6 + q] = -tau * n * f.distance / width_;
+      const bool along_x = force_axis(directions_[q]) == 0;
+      const double n = along_x ? f.nx : f.ny, tau = along_x ? -f.ny : f.nx;
+      const double height = branch_axis(directions_[q]) == 0 ? f.nx : f.ny;
+      b[0][6 + q] = -n * height * f.distance / width_, b[1][6 + q] = -tau * height * f.distance / width_;
     }
-    double kb[4][8] = {}, full[8][8];
+    double kb[4][9] = {}, full[9][9];
     for (std::size_t a = 0; a < 4; ++a)
       for (std::size_t c = 0; c < 6 + strains; ++c)
         for (std::size_t q = 0; q < 4; ++q) kb[a][c] += t[a][q] * b[q][c];
@@ -393,16 +407,20 @@ double SettlingNetwork::largest_displacement(const std::vector<double>& step) co
 void SettlingNetwork::accept(const std::vector<double>& step) {
   for (std::size_t k = 0; k < pairs_.size(); ++k)
     pairs_[k].tangential = response_[k].tangential, pairs_[k].moment = response_[k].moment;
+  tilt_ = scale_[0] * (tilt_ - lean_ * length_[1]);
   for (int a = 0; a < 2; ++a) length_[a] *= scale_[at(a)];
+  // What the cell has done to heights since the lists were made, along the first axis.
+  const double sheared = (tilt_ - length_[0] / listed_length_[0] * listed_tilt_) / listed_length_[1];
   double travel = 0;
   for (std::size_t r = 0; r < grains(); ++r) {
+    const double x = position_[r][0] + step[3 * r], y = position_[r][1] + step[3 * r + 1];
+    position_[r] = {{scale_[0] * (x - lean_ * y), scale_[1] * y}};
     Vec2 moved;
-    for (int a = 0; a < 2; ++a) {
-      position_[r][a] = scale_[at(a)] * (position_[r][a] + step[3 * r + at(a)]);
-      moved[a] = position_[r][a] - length_[a] / listed_length_[a] * listed_at_[r][a];
-    }
+    for (int a = 0; a < 2; ++a) moved[a] = position_[r][a] - length_[a] / listed_length_[a] * listed_at_[r][a];
+    moved[0] -= sheared * listed_at_[r][1];
     travel = std::max(travel, norm(moved));
   }
+  travel = std::max(travel, largest_ * std::abs(sheared));
   for (int a = 0; a < 2; ++a) travel = std::max(travel, largest_ * std::abs(length_[a] / listed_length_[a] - 1));
   // A pair comes nearer by twice the travel of its grains and the strain; the next step adds as much again.
   if (3 * (travel + largest_step_) > skin_)
@@ -443,11 +461,17 @@ void SettlingNetwork::store(State<Disks>& state, const std::vector<double>& velo
     b.velocity[k] = {{velocity[3 * r], velocity[3 * r + 1]}};
     b.spin[k] = velocity[3 * r + 2];
   }
-  if (periodic_) state.packing.cell->length = length_;
+  CellMotion<2>& motion = state.cell_motion;
+  if (periodic_) {
+    const PeriodicCell<2> before = *state.packing.cell;
+    *state.packing.cell = {length_, tilt_};
+    if (stress_[kShear])
+      motion.shear_strain += (tilt_ - length_[0] / before.length[0] * before.tilt) / before.length[1];
+  }
   for (std::size_t s = 0; s < directions_.size(); ++s) {
-    const int a = directions_[s];
-    state.cell_motion.strain_rate[a] =
-        velocity[3 * grains() + s] / width_ * length_[a] / state.cell_motion.reference_length[a];
+    const int a = branch_axis(directions_[s]);
+    (directions_[s] == kShear ? motion.shear_strain_rate : motion.strain_rate[a]) =
+        velocity[3 * grains() + s] / width_ * length_[a] / motion.reference_length[a];
   }
   state.packing.links.clear();
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
@@ -462,7 +486,8 @@ void SettlingNetwork::store(State<Disks>& state, const std::vector<double>& velo
   }
   if (periodic_) {
     const StressTensor stress = measured_stress(state.packing);
-    state.cell_motion.stress = {{stress.xx, stress.yy}};
+    motion.stress = {{stress.xx, stress.yy}};
+    if (stress_[kShear]) motion.shear_stress = stress.xy;
   }
   state.memory = {};
 }
@@ -473,6 +498,7 @@ void SettlingNetwork::transfer_members(Network& n, Io& io) {
   transfer_vectors(io, n.listed_at_);
   io.vector(n.length_);
   io.vector(n.listed_length_);
+  if (n.tilts_) io.real(n.tilt_), io.real(n.listed_tilt_);
   const std::size_t pairs = io.count(n.pairs_);
   for (std::size_t k = 0; k < pairs; ++k) {
     auto& p = n.pairs_[k];

@@ -3,8 +3,11 @@
 //
 // Unknowns of a step, in the order of the grains' ids: displacement u_i [a] and rotation theta_i of every grain, then
 // for each edge of the cell under stress control its log-strain e_a = -ln(L_a / L_a,accepted), compression positive,
-// times w = sqrt(area) [a]. Positions move with the cell: r_ij = exp(-e) (r_ij,accepted + u_j - u_i).
-// Conjugate forces: net force F_i [F0], moment [F0 a], and (A sigma_imposed - sum F_a r_a) / w [F0].
+// times w = sqrt(area) [a], and for a shear stress that is imposed the shear strain e_12 times w, in the same sense.
+// Positions move with the cell: with (x, y) = r_ij,accepted + u_j - u_i
+//   r_ij = (exp(-e_1) (x - e_12 y), exp(-e_2) y),
+// so that each strain is the whole of its component of the velocity gradient, at any value of the others.
+// Conjugate forces: net force F_i [F0], moment [F0 a], and (A sigma_imposed - sum F_a r_b) / w [F0].
 #pragma once
 #include <array>
 #include <cstdint>
@@ -64,7 +67,7 @@ class SettlingNetwork {
   // The part of the trial step of the last forces() after which it first brings a cohesive pair within reach or into
   // contact, if it does.
   std::optional<double> first_capture() const;
-  // Edges of the cell; of an isolated packing those of the box of its grains [a].
+  // L1 and L2 of the cell; of an isolated packing those of the box of its grains [a].
   const Vec2& extent() const { return length_; }
   double area() const { return length_[0] * length_[1]; }
 
@@ -103,15 +106,20 @@ class SettlingNetwork {
   void remember_branches();
   void couple_active_pairs();
   void make_pattern();
+  // A direction of strain is an edge, or the shear: force along the first axis, height along the second.
+  static constexpr int kShear = 2;
+  static int force_axis(int direction) { return direction == kShear ? 0 : direction; }
+  static int branch_axis(int direction) { return direction == kShear ? 1 : direction; }
 
   DiskLaw law_;
-  std::array<std::optional<double>, 2> stress_;
-  bool periodic_;
+  std::array<std::optional<double>, 3> stress_;  // of each direction
+  bool periodic_, tilts_;
   std::vector<int> directions_;
   std::vector<std::int32_t> order_;  // storage index by rank of the id
   std::vector<Vec2> position_, listed_at_;
   std::vector<double> radius_, inertia_;
   Vec2 length_{}, listed_length_{};
+  double tilt_ = 0, listed_tilt_ = 0;
   double width_ = 1, smallest_ = 0, largest_ = 0, largest_step_ = 0, skin_ = 0;
 
   std::vector<Pair> pairs_;
@@ -120,6 +128,7 @@ class SettlingNetwork {
   bool all_count_ = true;
   std::vector<double> force_;
   std::array<double, 2> scale_{1, 1};  // exp(-e) of the trial
+  double lean_ = 0;                    // e_12
   SymmetricMatrix matrix_;
   std::vector<std::int32_t> blocks_;  // off-diagonal blocks of each grain's columns
   std::int64_t patterns_ = 0;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "analysis/network/coordination.hpp"
+#include "analysis/network/principal.hpp"
 #include "analysis/network/sections.hpp"
 #include "analysis/network/triangle_sections.hpp"
 #include "dem/state/balance.hpp"
@@ -54,16 +55,35 @@ double mean_force_diameter(const Packing<D>& packing, const Coordination& c) {
   return interactions > 0 ? sum / interactions : kUndefined;
 }
 
+// <n_a n_b> over the interactions: its trace is 1.
+template <int D>
+nlohmann::ordered_json fabric(const Packing<D>& packing, const Coordination& c) {
+  Tensor<D> sum{};
+  for (std::size_t l = 0; l < packing.links.size(); ++l) {
+    if (!c.counted[l]) continue;
+    const Vec<D> r = ends(packing, packing.links[l]).branch, n = r / norm(r);
+    for (int a = 0; a < D; ++a) sum[static_cast<std::size_t>(a)] += n[a] * n;
+  }
+  const auto interactions = static_cast<double>(c.contacts + c.distant);
+  nlohmann::ordered_json json;
+  for (Vec<D>& row : sum) row = interactions > 0 ? row / interactions : kUndefined * row;
+  for (const Vec<D>& row : sum) json["tensor"].push_back(row.c);
+  add_principal<D>(json, sum);
+  return json;
+}
+
 nlohmann::ordered_json stress_of_spheres(const Packing<3>& packing, const ForceReading& reading) {
   const StressTensor3 s = measured_stress(packing);
   const Coordination c = coordination(packing, reading);
   const double pressure = (s[0][0] + s[1][1] + s[2][2]) / 3;
   nlohmann::ordered_json json;
   json["tensor"] = {s[0].c, s[1].c, s[2].c};
+  add_principal<3>(json, s);
   json["pressure"] = pressure;
   json["rumpf_force"] = rumpf_force(packing, pressure, mean_degree(packing, c));
   json["mean_normal_force"] = mean_normal_force(packing, c);
   json["mean_force_diameter"] = mean_force_diameter(packing, c);
+  json["fabric"] = fabric(packing, c);
   return json;
 }
 
@@ -79,11 +99,13 @@ nlohmann::ordered_json stress_section(const AnalysisInput& input, const Analysis
   const auto interactions = static_cast<double>(c.contacts + c.distant);
   nlohmann::ordered_json json;
   json["tensor"] = {{s.xx, s.xy}, {s.yx, s.yy}};
+  add_principal<2>(json, {Vec2{{s.xx, s.xy}}, Vec2{{s.yx, s.yy}}});
   json["pressure"] = 0.5 * (s.xx + s.yy);
   json["rumpf_force"] =
       rumpf_force(packing, 0.5 * (s.xx + s.yy), 2 * interactions / static_cast<double>(packing.bodies.size()));
   json["mean_normal_force"] = mean_normal_force(packing, c);
   json["mean_force_diameter"] = mean_force_diameter(packing, c);
+  json["fabric"] = fabric(packing, c);
   return json;
 }
 

@@ -1,4 +1,5 @@
 #include "analysis/network/triangle_sections.hpp"
+#include "analysis/network/principal.hpp"
 
 #include <cmath>
 #include <limits>
@@ -95,6 +96,7 @@ Json triangle_stress(const State<TriangleGrains>& state) {
   const auto overlaps = static_cast<double>(state.packing.overlaps.size());
   Json json;
   json["tensor"] = {{s.xx, s.xy}, {s.yx, s.yy}};
+  add_principal<2>(json, {Vec2{{s.xx, s.xy}}, Vec2{{s.yx, s.yy}}});
   json["pressure"] = 0.5 * (s.xx + s.yy);
   json["mean_normal_force"] = overlaps > 0 ? sum / overlaps : kUndefined;
   return json;

@@ -18,11 +18,12 @@ template <class F>
 struct FieldGeometry {
   std::vector<FieldVec<F>> position;
   std::vector<F> radius;
-  FieldVec<F> cell{};                              // zero when isolated
+  FieldVec<F> cell{};                              // L1, L2; zero when isolated
+  F tilt{};                                        // of the second edge along the first
   std::vector<std::array<FieldVec<F>, 3>> corner;  // of triangles; `position` is then their centroids
 
   FieldVec<F> offset(const ImageShift<2>& s) const {
-    return {F::from_integer(s[0]) * cell[0], F::from_integer(s[1]) * cell[1]};
+    return {F::from_integer(s[0]) * cell[0] + F::from_integer(s[1]) * tilt, F::from_integer(s[1]) * cell[1]};
   }
   FieldVec<F> placed(std::size_t grain, const ImageShift<2>& s) const {
     if (s[0] == 0 && s[1] == 0) return position[grain];
@@ -62,6 +63,7 @@ FieldGeometry<F> exact_geometry(const LinkNetwork& network) {
   for (const Vec2& r : packing.bodies.position) g.position.push_back({F::from_double(r[0]), F::from_double(r[1])});
   for (double r : packing.bodies.radius) g.radius.push_back(F::from_double(r));
   if (packing.cell) g.cell = {F::from_double(packing.cell->length[0]), F::from_double(packing.cell->length[1])};
+  if (packing.cell) g.tilt = F::from_double(packing.cell->tilt);
   for (const Triangle& t : network.corners) {
     auto& at = g.corner.emplace_back();
     for (std::size_t c = 0; c < 3; ++c) at[c] = {F::from_double(t.corner[c][0]), F::from_double(t.corner[c][1])};
@@ -87,6 +89,7 @@ FieldGeometry<F> random_geometry(const LinkNetwork& network, std::uint64_t seed)
     auto& at = g.corner.emplace_back();
     for (auto& c : at) c = {F::random(seed, draw), F::random(seed, draw + 1)}, draw += 2;
   }
+  if (packing.cell && packing.cell->tilt != 0) g.tilt = F::random(seed, draw);
   g.set_centroids();
   return g;
 }

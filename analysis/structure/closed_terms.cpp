@@ -24,7 +24,8 @@ double hidden_length(double r, double q, double d) {
 
 ClosedTerms::ClosedTerms(const DiskComplex& c, std::span<const double> radius, double deepest, double r_max)
     : radius_(radius.begin(), radius.end()) {
-  const auto& length = c.cell.length;
+  const Vec2& length = c.cell.length;
+  const Vec2 spacing = c.cell.spacing();
   const double shorter = std::min(length[0], length[1]);
   const double largest = *std::max_element(radius_.begin(), radius_.end());
   reach_ = 2 * largest;
@@ -42,7 +43,7 @@ ClosedTerms::ClosedTerms(const DiskComplex& c, std::span<const double> radius, d
       walls_ += hidden_length(c.radius[i], c.radius[j], d);
     }
   const double far = r_max + 2 * largest;
-  const auto cells = [&](int axis) { return static_cast<int>(far / length[axis]); };
+  const auto cells = [&](int axis) { return static_cast<int>(far / spacing[axis]); };
   for (int x = -cells(0); x <= cells(0); ++x)
     for (int y = -cells(1); y <= cells(1); ++y)
       if (const double d = norm(c.cell.offset({x, y})); d > 0 && d < far) image_.push_back(d);

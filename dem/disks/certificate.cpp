@@ -36,7 +36,8 @@ Motion motion_of(const Packing<2>& packing, const std::vector<BodyLoad>& loads, 
 }  // namespace
 
 double force_scale(const DiskLaw& law, const ImposedStress<2>& imposed, double heaviest_weight) {
-  const double scale = std::max({law.attraction, std::abs(largest_stress(imposed).value_or(0.0)), heaviest_weight});
+  const double scale = std::max({law.attraction, std::abs(largest_stress(imposed).value_or(0.0)),
+                                 std::abs(imposed.shear.value_or(0.0)), heaviest_weight});
   return scale > 0 ? scale : 1.0;
 }
 
@@ -84,6 +85,8 @@ Certificate evaluate_certificate(const Packing<2>& packing, const DiskLaw& law, 
     if (imposed[0]) c.pressure_error = std::abs(stress.xx / area - *imposed[0]) / c.force_scale;
     if (imposed[1])
       c.pressure_error = largest_of(c.pressure_error, std::abs(stress.yy / area - *imposed[1]) / c.force_scale);
+    if (imposed.shear)
+      c.pressure_error = largest_of(c.pressure_error, std::abs(stress.xy / area - *imposed.shear) / c.force_scale);
   }
   c.equilibrated = worst_criterion(c).ratio < 1;
   return c;

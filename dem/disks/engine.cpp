@@ -55,9 +55,9 @@ DiskEngine::DiskEngine(const State<Disks>& state, const CellControl<2>& control,
                                   options.energies  ? Tally::energy
                                   : control.moves() ? Tally::stress
                                                     : Tally::nothing,
-                                  options.isa)),
+                                  options.isa, control.shears() ? Flow::shear : Flow::stretch)),
       wall_kernel_(select_kernel(law_, options.energies ? Tally::energy : Tally::nothing, Isa::scalar)),
-      motion_kernel_(select_motion({rotates_, control.moves(), gravity_ > 0})),
+      motion_kernel_(select_motion({rotates_, control.moves(), gravity_ > 0, control.shears()})),
       team_(std::min(options.threads, Lists::chunk_count(state.packing.grains()))),
       lists_(state.packing.grains(), law_.attraction_range, DiskPairs(law_)),
       walls_(smooth_walls(state.scene.container, kBeyondJoint * largest_diameter(state.packing)),
@@ -186,12 +186,13 @@ void DiskEngine::start_half_steps() {
         0.5 * dt_ * (c.radius * load[LoadSlot::moment_per_radius] + load[LoadSlot::moment]) * c.inverse_inertia;
     row[Slot::surface_speed] = c.radius * row[Slot::half_spin];
     for (int a = 0; a < 2; ++a) motion_tally_.kinetic[a] += c.mass * row[Slot::vx + a] * row[Slot::vx + a];
+    motion_tally_.shear_kinetic += c.mass * row[Slot::vx] * row[Slot::vy];
   }
   if (energies_) set_work_due();
 }
 
 Advance DiskEngine::advance(const MotionStep<2>& step, double drag) {
-  if (energies_ && (step.keep[0] != 1 || step.keep[1] != 1)) brake_ledger(step, drag);
+  if (energies_ && (step.keep[0] != 1 || step.keep[1] != 1 || step.shear_coupling != 0)) brake_ledger(step, drag);
   over_chunks(team_, lists_, motion_tallies_, [&](std::size_t begin, std::size_t end) {
     return motion_kernel_(bodies_, begin, end, step, prediction_, gravity_);
   });
@@ -199,14 +200,16 @@ Advance DiskEngine::advance(const MotionStep<2>& step, double drag) {
   for (const MotionTally& t : motion_tallies_) {
     motion_tally_.largest_speed_squared = std::max(motion_tally_.largest_speed_squared, t.largest_speed_squared);
     motion_tally_.kinetic[0] += t.kinetic[0], motion_tally_.kinetic[1] += t.kinetic[1];
+    motion_tally_.shear_kinetic += t.shear_kinetic;
   }
+  if (step.turns != 0) lists_.turn(step.turns);
   double speed = std::sqrt(motion_tally_.largest_speed_squared);
   if (!bodies_.driven.empty() || walls_.any()) {
     move_container(step.time);
     speed = std::max(speed, place_walls());
   }
   const double move = dt_ * speed;
-  const double affine = std::max(std::abs(step.scale[0] - 1), std::abs(step.scale[1] - 1));
+  const double affine = std::max(std::abs(step.scale[0] - 1), std::abs(step.scale[1] - 1)) + std::abs(step.shear);
   // Listed neighbours are nearer than two diameters and the range; the first factor covers the rescaling of the
   // peculiar move, and the rounding of travels summed over many steps.
   return {(1.01 + affine) * (2 * move + affine * (2 * largest_diameter_ + law_.attraction_range)),
@@ -238,6 +241,7 @@ void DiskEngine::compute_forces(const Cell& cell, const CellFlow<2>& flow, doubl
   in.law = law_;
   in.time_step = time_step;
   for (int a = 0; a < 2; ++a) in.flow_half[a] = flow_.half[a], in.flow_now[a] = flow_.now[a];
+  in.shear_half = flow_.shear_half, in.shear_now = flow_.shear_now;
   for (std::uint8_t code = 0; code < 9 && cell; ++code) {
     const Vec2 offset = cell->offset(image_shift<2>(code));
     in.offset_x[code] = offset[0], in.offset_y[code] = offset[1];
@@ -260,7 +264,10 @@ void DiskEngine::compute_forces(const Cell& cell, const CellFlow<2>& flow, doubl
 }
 
 StressSums<2> DiskEngine::sums() const {
-  return {{motion_tally_.kinetic[0], motion_tally_.kinetic[1]}, {force_tally_.virial[0], force_tally_.virial[1]}};
+  return {{motion_tally_.kinetic[0], motion_tally_.kinetic[1]},
+          {force_tally_.virial[0], force_tally_.virial[1]},
+          motion_tally_.shear_kinetic,
+          force_tally_.shear_virial};
 }
 
 void DiskEngine::set_law(const DiskLaw& law, Springs springs) {

@@ -22,6 +22,7 @@ class DiskEngine {
  public:
   using Lists = NeighbourLists<DiskPairs>;
   using Cell = std::optional<PeriodicCell<2>>;
+  static constexpr bool kShears = true;  // with the cell
   static constexpr const char* kListAdvice = "use more grains (grains.count), or lower stage.pressure or step.fraction";
 
   DiskEngine(const State<Disks>& state, const CellControl<2>& control, const SolverOptions& options);

@@ -18,12 +18,14 @@ void DiskEngine::brake_ledger(const MotionStep<2>& step, double rate) {
     const double *row = bodies_.row(k), *load = bodies_.load(k);
     const BodyConstants& c = bodies_.constants[k];
     if (c.inverse_mass == 0) continue;  // the container moves as it does
+    const auto free_at = [&](int a) { return row[Slot::half_vx + a] + dt_ * load[LoadSlot::fx + a] * c.inverse_mass; };
     for (int a = 0; a < 2; ++a) {
-      const double before = row[Slot::half_vx + a];
-      const double free = before + dt_ * load[LoadSlot::fx + a] * c.inverse_mass, brake = 1 - step.keep[a];
-      const double mean = 0.5 * (before + free * step.keep[a]);
+      const double before = row[Slot::half_vx + a], free = free_at(a), brake = 1 - step.keep[a];
+      const double sheared = a == 0 ? step.shear_coupling * free_at(1) : 0.0;
+      const double mean = 0.5 * (before + free * step.keep[a] - sheared);
       ledger_.drag += c.mass * drag * free * mean;
       ledger_.cell_work -= c.mass * (brake - drag) * free * mean;
+      ledger_.cell_work -= c.mass * sheared * mean;
     }
     if (!rotates_) continue;
     const double before = row[Slot::half_spin];
@@ -49,6 +51,7 @@ void DiskEngine::keep_books() {
 void DiskEngine::set_work_due() {
   ledger_.viscous_due = 0.5 * dt_ * viscous_power();
   ledger_.cell_work_due = -0.5 * dt_ * (force_tally_.virial[0] * flow_.now[0] + force_tally_.virial[1] * flow_.now[1]);
+  ledger_.cell_work_due -= 0.5 * dt_ * force_tally_.shear_virial * flow_.shear_now;
   ledger_.wall_work_due = 0.5 * dt_ * wall_power();
 }
 
@@ -84,7 +87,8 @@ double DiskEngine::viscous_power() const {
     if (frame.gap >= 0) return;
     double receding = 0, predicted = 0, mean = 0;
     for (int k = 0; k < 2; ++k) {
-      const double normal = k == 0 ? frame.nx : frame.ny, affine = flow_.now[k] * r[k];
+      const double normal = k == 0 ? frame.nx : frame.ny,
+                   affine = flow_.now[k] * r[k] + (k == 0 ? flow_.shear_now * r[1] : 0.0);
       const double *ri = bodies_.row(i), *rj = bodies_.row(j);
       const auto kicked = [&](const double* row, const double* load, const BodyConstants& c) {  // at the full step
         const double of_container = row[Slot::vx + k] - row[Slot::half_vx + k];
@@ -92,7 +96,7 @@ double DiskEngine::viscous_power() const {
       };
       const double kick = kicked(rj, bodies_.load(j), cj) - kicked(ri, bodies_.load(i), ci);
       const double half = rj[Slot::half_vx + k] - ri[Slot::half_vx + k];
-      receding += normal * (half + flow_.half[k] * r[k]);
+      receding += normal * (half + flow_.half[k] * r[k] + (k == 0 ? flow_.shear_half * r[1] : 0.0));
       predicted += normal * (rj[Slot::vx + k] - ri[Slot::vx + k] + affine);
       mean += normal * (half + kick + affine);
     }

@@ -32,11 +32,13 @@ inline double velocity_prediction(const DiskLaw& law, double smallest_mass, doub
 struct MotionTally {
   double largest_speed_squared = 0;  // [a^2/T0^2] bound on that of u(n+1/2)
   double kinetic[2] = {0, 0};        // sum of m p_a^2 [F0 a], for the stress of a free cell
+  double shear_kinetic = 0;          // sum of m p_1 p_2, of one that shears
 };
 
-// Which instance of the step a scene needs: a frictionless one turns nothing, a fixed cell scales nothing.
+// Which instance of the step a scene needs: a frictionless one turns nothing, a fixed cell scales nothing, and few
+// cells shear. Weight stands in no cell that moves.
 struct MotionNeeds {
-  bool rotation = true, free_cell = true, weight = false;
+  bool rotation = true, free_cell = true, weight = false, shear = false;
 };
 // prediction [dt]: how far p is ahead of u, see velocity_prediction(). gravity [a/T0^2]: the loads of the next forces
 // begin with the weights, along -y; 0 where none is needed.

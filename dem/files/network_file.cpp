@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "dem/files/atomic_file.hpp"
+#include "dem/files/formats/table_packing.hpp"
 #include "dem/files/network_lines.hpp"
 #include "dem/input_error.hpp"
 #include "dem/state/beam.hpp"
@@ -28,6 +29,8 @@ class NetworkParser {
     network_lines::each_line(text, [&](int line, const Fields& f) {
       if (f[0] == "cell")
         cell(line, f);
+      else if (f[0] == "tilt")
+        tilt(line, f);
       else if (f[0] == "grain")
         grain(line, f);
       else if (f[0] == "contact" || f[0] == "beam")
@@ -36,8 +39,10 @@ class NetworkParser {
         fault(line, "", f[0],
               f[0] == "triangle"
                   ? "a network is of grains or of triangles, not of both"
-                  : "a line starts with cell, grain, contact or beam, or with triangle in a network of triangles");
+                  : "a line starts with cell, tilt, grain, contact or beam, or with triangle in a network of "
+                    "triangles");
     });
+    place_tilt();
     check_placement();
     for (const auto& [at, fields] : links_) {
       const bool is_beam = fields[0] == "beam";
@@ -48,7 +53,8 @@ class NetworkParser {
     if (!faults_.empty()) throw InputError(std::move(faults_));
     require_lengths(file_.packing.cell, file_.packing.bodies, path_, gap_tolerance, cell_line_);
 
-    set_masses();
+    file_.packing.bodies.resize(file_.packing.bodies.size());
+    set_equal_densities(file_.packing.bodies);
     if (!file_.links_given)
       find_contacts(file_.packing, gap_tolerance.value_or(default_gap_tolerance(file_.packing.bodies)));
     return std::move(file_);
@@ -84,6 +90,19 @@ class NetworkParser {
     }
     has_cell_ = true;
     if (good) file_.packing.cell = c;
+  }
+
+  void tilt(int line, const Fields& f) {
+    if constexpr (D == 3) return fault(line, "tilt", "", "a cell in space stands upright; only one of the plane tilts");
+    if (f.size() != 2) return fault(line, "tilt", std::to_string(f.size() - 1) + " numbers", "tilt T");
+    if (tilt_line_ > 0)
+      return fault(line, "tilt", "", "given before in line " + std::to_string(tilt_line_) + "; keep one");
+    tilt_line_ = line, tilt_ = real(line, "tilt", f[1], false).value_or(0);
+  }
+  void place_tilt() {
+    if (tilt_line_ == 0) return;
+    if (!has_cell_) fault(tilt_line_, "tilt", "", "needs a cell line");
+    if (file_.packing.cell) file_.packing.cell->tilt = tilt_;
   }
 
   void grain(int line, const Fields& f) {
@@ -225,17 +244,6 @@ class NetworkParser {
     file_.packing.links.push_back(link);
   }
 
-  // Equal densities, mass 1 for the largest: disks m ~ R^2, I = m R^2 / 2; spheres m ~ R^3, I = 2 m R^2 / 5.
-  void set_masses() {
-    Bodies<D>& b = file_.packing.bodies;
-    b.resize(b.size());
-    const double largest = *std::max_element(b.radius.begin(), b.radius.end());
-    for (std::size_t i = 0; i < b.size(); ++i) {
-      b.mass[i] = std::pow(b.radius[i] / largest, D);
-      b.inertia[i] = (D == 2 ? 0.5 : 0.4) * b.mass[i] * b.radius[i] * b.radius[i];
-    }
-  }
-
   struct Key {
     std::int32_t i, j;
     ImageShift<D> shift;
@@ -255,7 +263,8 @@ class NetworkParser {
   std::string path_;
   NetworkFile<D> file_;
   std::vector<Fault> faults_;
-  int cell_line_ = 0;
+  int cell_line_ = 0, tilt_line_ = 0;
+  double tilt_ = 0;
   bool has_cell_ = false;
   std::unordered_map<std::int64_t, std::int32_t> index_;  // of an ID
   std::vector<int> line_of_grain_;
@@ -313,6 +322,7 @@ std::string network_text(const Packing<D>& packing) {
     text += "cell";
     for (int k = 0; k < D; ++k) real(packing.cell->length[k]);
     text += '\n';
+    if (packing.cell->tilt != 0) text += "tilt", real(packing.cell->tilt), text += '\n';
   }
   const Bodies<D>& b = packing.bodies;
   for (std::size_t i = 0; i < b.size(); ++i) {

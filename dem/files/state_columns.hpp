@@ -81,12 +81,13 @@ void transfer_memory_array(Io& io, const std::string& name, std::vector<T>& valu
 
 template <class Io, int D>
 void transfer_lists(Io& io, ListMemory<D>& lists, const char* unit) {
-  auto& [outer_position, inner_position, outer_length, inner_length, outer_skin, inner_skin, outer_travel,
-         inner_travel] = lists;
+  auto& [outer_position, inner_position, outer_length, inner_length, outer_tilt, inner_tilt, outer_skin, inner_skin,
+         outer_travel, inner_travel] = lists;
   transfer_memory_array(io, "outer_position", outer_position, unit);
   transfer_memory_array(io, "inner_position", inner_position, unit);
   io.value("/solver", "outer_length", outer_length);
   io.value("/solver", "inner_length", inner_length);
+  if (io.since(7)) io.value("/solver", "outer_tilt", outer_tilt), io.value("/solver", "inner_tilt", inner_tilt);
   io.value("/solver", "outer_skin", outer_skin);
   io.value("/solver", "inner_skin", inner_skin);
   io.value("/solver", "outer_travel", outer_travel);

@@ -87,6 +87,7 @@ class StateWriter {
     if (!cell) return;
     frame(path + "/edges");
     write(path + "/edges/value", {1, D}, std::vector<Vec<D>>{cell->length}, units_.length);
+    if (cell->tilt != 0) file_.attribute(path, "tilt", cell->tilt);
   }
 
   void value(const std::string& group, const std::string& name, double x) { put(group, name, x); }
@@ -183,6 +184,7 @@ class StateReader {
     const std::vector<double> edges = file_.array<double>(path + "/edges/value", {1, D});
     cell.emplace();
     std::copy_n(edges.begin(), D, cell->length.c.begin());
+    if (file_.has_attribute(path, "tilt")) cell->tilt = file_.attribute<double>(path, "tilt");
   }
 
   void value(const std::string& group, const std::string& name, double& x) { x = file_.attribute<double>(group, name); }

@@ -13,7 +13,8 @@ namespace isostat {
 template <class Io, int D>
 void transfer_progress(Io& io, StageProgress<D>& progress) {
   auto& [stage, start_time, started, drag_on, quiet_since, contact_set, unchanged_since, start_stiffness, start_stress,
-         ramp_stress, ramp_rate, carried_stress, carried_at, peak_stress, drifting, solves, unmet] = progress;
+         start_shear_stress, ramp_stress, ramp_rate, ramp_shear_stress, ramp_shear_rate, carried_stress, carried_at,
+         peak_stress, drifting, solves, unmet] = progress;
   io.value("/progress", "stage", stage);
   io.value("/progress", "start_time", start_time);
   io.value("/progress", "started", started);
@@ -23,11 +24,14 @@ void transfer_progress(Io& io, StageProgress<D>& progress) {
   io.value("/progress", "unchanged_since", unchanged_since);
   io.value("/progress", "start_stiffness", start_stiffness);
   io.value("/progress", "start_stress", start_stress);
+  if (io.since(7)) io.value("/progress", "start_shear_stress", start_shear_stress);
   io.value("/progress", "peak_stress", peak_stress);
   io.value("/progress", "drifting", drifting);
   if (io.since(7)) {
     io.value("/progress", "ramp_stress", ramp_stress);
     io.value("/progress", "ramp_rate", ramp_rate);
+    io.value("/progress", "ramp_shear_stress", ramp_shear_stress);
+    io.value("/progress", "ramp_shear_rate", ramp_shear_rate);
     io.value("/progress", "carried_stress", carried_stress);
     io.value("/progress", "carried_at", carried_at);
   }
@@ -100,14 +104,20 @@ void transfer(Io& io, State<System>& state) {
   io.value("/run", "time_step", time_step);
   for (std::size_t a = 0; a < imposed_stress.size(); ++a)
     io.value("/run", "imposed_stress_" + std::to_string(a + 1), imposed_stress[a]);
+  io.value("/run", "imposed_stress_12", imposed_stress.shear);
   io.value("/run", "seed", seed);
   io.value("/run", "random_counter", random_counter);
   transfer_packing(io, packing);
   transfer_law(io, law);
-  auto& [reference_length, strain_rate, stress] = cell_motion;
+  auto& [reference_length, strain_rate, stress, shear_strain_rate, shear_stress, shear_strain] = cell_motion;
   io.value("/cell", "reference_length", reference_length);
   io.value("/cell", "strain_rate", strain_rate);
   io.value("/cell", "stress", stress);
+  if (io.since(7)) {
+    io.value("/cell", "shear_strain_rate", shear_strain_rate);
+    io.value("/cell", "shear_stress", shear_stress);
+    io.value("/cell", "shear_strain", shear_strain);
+  }
   transfer_memory(io, memory);
   transfer_progress(io, progress);
   if (io.since(4)) transfer_surroundings(io, surroundings);

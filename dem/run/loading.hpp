@@ -18,6 +18,12 @@ Vec<System::dimension> static_stress(const State<System>& s) {
   return diagonal(measured_stress(s));
 }
 
+// sigma_12 of the static forces [F0/a]; 0 without a cell.
+template <class System>
+double static_shear_stress(const State<System>& s) {
+  return s.packing.cell ? shear_of(measured_stress(s)) : 0.0;
+}
+
 // K_N, or an imposed stress or rate, is still on its way.
 template <class System>
 bool still_loading(const State<System>& s, const StageScene& stage) {
@@ -61,8 +67,8 @@ double acting_pressure(const State<System>& s) {
   return largest;
 }
 
-// Inertial number of the fastest edge of the cell, rate sqrt(m a / F1); 0 at rest. Below kQuasiStatic the time that
-// loading takes does not show in dense flows of grains (GDR MiDi, Eur. Phys. J. E 14, 341 (2004)).
+// Inertial number of the fastest edge of the cell or of its shear, rate sqrt(m a / F1); 0 at rest. Below kQuasiStatic
+// the time that loading takes does not show in dense flows of grains (GDR MiDi, Eur. Phys. J. E 14, 341 (2004)).
 inline constexpr double kQuasiStatic = 1e-3;
 template <class System>
 double inertial_number(const State<System>& s) {
@@ -70,6 +76,8 @@ double inertial_number(const State<System>& s) {
   for (int a = 0; a < System::dimension; ++a)
     rate = std::max(
         rate, std::abs(s.cell_motion.strain_rate[a] * s.cell_motion.reference_length[a]) / s.packing.cell->length[a]);
+  rate = std::max(
+      rate, std::abs(s.cell_motion.shear_strain_rate * s.cell_motion.reference_length[1]) / s.packing.cell->length[1]);
   return rate > 0 ? rate * inertial_time(s, acting_pressure(s)) : 0;
 }
 

@@ -95,6 +95,7 @@ class StageEnd {
     for (int a = 0; a < System::dimension; ++a)
       if (stage_.driven(a))
         largest = std::max(largest, std::abs(1 - s_.packing.cell->length[a] / s_.cell_motion.reference_length[a]));
+    if (stage_.shear_driven()) largest = std::max(largest, std::abs(s_.cell_motion.shear_strain));
     return largest;
   }
   // +1: the stage compresses along this direction, -1: it pulls, by a rate or else by a stress that changes; 0:
@@ -106,6 +107,12 @@ class StageEnd {
     const auto wanted = imposed_stress<System::dimension>(stage_)[u];
     return wanted ? sign(*wanted - s_.progress.ramp_stress[a]) : 0;
   }
+  // The same of the shear strain -d(tilt)/L2.
+  int shear_tested() const {
+    const auto sign = [](double x) { return (x > 0) - (x < 0); };
+    if (stage_.driven()) return -sign(stage_.shear_rate.value_or(0));
+    return stage_.stress_12 ? sign(*stage_.stress_12 - s_.progress.ramp_shear_stress) : 0;
+  }
   // [F0/a] What a tested direction carries more than the others, whose stress is imposed; the largest.
   double carried() const {
     double others = 0, largest = -INFINITY;
@@ -116,6 +123,7 @@ class StageEnd {
     const Vec<System::dimension> stress = static_stress(s_);
     for (int a = 0; a < System::dimension; ++a)
       if (const int sign = tested(a)) largest = std::max(largest, sign * (stress[a] - others / std::max(held, 1)));
+    if (const int sign = shear_tested()) largest = std::max(largest, sign * static_shear_stress(s_));
     return largest;
   }
   bool failed() const {

@@ -1,5 +1,6 @@
 // Columns of the time series that every system has: where the run stands, what the stage imposes, how far it has come.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <string_view>
@@ -11,9 +12,17 @@
 
 namespace isostat {
 
+// In any stage: the columns of a series are the same from its first line to its last.
+template <class System>
+bool may_tilt(const State<System>& s) {
+  return s.packing.cell->tilt != 0 ||
+         std::any_of(s.scene.stages.begin(), s.scene.stages.end(),
+                     [](const StageScene& stage) { return stage.stress_12 || stage.shear_driven(); });
+}
+
 // `off_diagonal`: with a cell sigma_12(, sigma_13, sigma_23), mean of both halves. Strains are those that
 // until = "strain" looks at, 1 - L / L0 of the stage, compression positive; a stress that is not imposed is not a
-// number.
+// number. A cell that has a tilt or may get one has columns more.
 template <class System, std::size_t N>
 void add_stage_columns(std::vector<SeriesColumn>& columns, const State<System>& s,
                        const std::array<double, N>& off_diagonal) {
@@ -30,6 +39,13 @@ void add_stage_columns(std::vector<SeriesColumn>& columns, const State<System>& 
     for (int a = 0; a < System::dimension; ++a) {
       const auto u = static_cast<std::size_t>(a);
       columns.push_back({kImposed[u], s.imposed_stress[u].value_or(std::numeric_limits<double>::quiet_NaN())});
+    }
+    if (may_tilt(s)) {
+      columns.push_back({"imposed12", s.imposed_stress.shear.value_or(std::numeric_limits<double>::quiet_NaN())});
+      columns.push_back({"tilt", s.packing.cell->tilt});
+      columns.push_back({"shear_strain", s.cell_motion.shear_strain});
+      columns.push_back({"shear_rate", -s.cell_motion.shear_strain_rate * s.cell_motion.reference_length[1] /
+                                           s.packing.cell->length[1]});
     }
     columns.push_back({"inertial_number", inertial_number(s)});
     columns.push_back({"stress_error", stress_error(s)});

@@ -12,7 +12,8 @@ bool loads(const StageScene& s) {
   const auto given = [](const auto& list) {
     return std::any_of(list.begin(), list.end(), [](auto x) { return x.has_value(); });
   };
-  return s.pressure || !s.pressures.empty() || given(s.stresses()) || given(s.strain_rates());
+  return s.pressure || !s.pressures.empty() || given(s.stresses()) || given(s.strain_rates()) || s.stress_12 ||
+         s.shear_rate;
 }
 
 // Each direction has one master, and the end of a stage must be one that its directions can reach.
@@ -30,20 +31,21 @@ void check_control(const Scene& scene, std::size_t i, std::vector<SceneConflict>
   one_master(s.stress_1, s.strain_rate_1, "strain_rate_1", "stress_1");
   one_master(s.stress_2, s.strain_rate_2, "strain_rate_2", "stress_2");
   one_master(s.stress_3, s.strain_rate_3, "strain_rate_3", "stress_3");
+  one_master(s.stress_12, s.shear_rate, "shear_rate", "stress_12");
   const bool driven = s.driven();
-  const std::vector<std::string> involved{key("until"), key("strain_rate_1"), key("strain_rate_2")};
+  const std::vector<std::string> involved{key("until"), key("strain_rate_1"), key("strain_rate_2"), key("shear_rate")};
   if (waits_for_equilibrium(s.until) && driven)
     found.push_back({key("until"), quoted_text(name(s.until)),
                      "a driven cell never comes to rest: \"strain\", \"failure\" or \"time\"", involved});
   if (s.until == Until::strain && !driven)
-    found.push_back(
-        {key("until"), quoted_text(name(s.until)), "needs a strain rate other than 0 along a direction", involved});
+    found.push_back({key("until"), quoted_text(name(s.until)),
+                     "needs a strain rate other than 0 along a direction, or of shear", involved});
   if (s.until == Until::failure && !driven && !(s.ramp_time > 0 && loads(s)))
-    found.push_back(
-        {key("until"),
-         quoted_text(name(s.until)),
-         "needs a strain rate other than 0 along a direction, or a stress that changes over " + key("ramp_time"),
-         {key("until"), key("strain_rate_1"), key("strain_rate_2"), key("ramp_time")}});
+    found.push_back({key("until"),
+                     quoted_text(name(s.until)),
+                     "needs a strain rate other than 0 along a direction, or of shear, or a stress that changes over " +
+                         key("ramp_time"),
+                     {key("until"), key("strain_rate_1"), key("strain_rate_2"), key("shear_rate"), key("ramp_time")}});
   if (s.until == Until::strain && !(s.strain > 0))
     found.push_back({key("strain"),
                      real_text(s.strain),

@@ -58,7 +58,9 @@ std::vector<SceneKey> common_keys() {
       {.name = "cell.rate_coupling",
        .field = in<&S::cell, &CellScene::rate_coupling>,
        .condition = has_cell,
-       .meaning = "Add -(Ldot/L) v to the peculiar acceleration; the paper's equations have no such term."},
+       .meaning =
+           "Add -(Ldot/L) v to the peculiar acceleration, in a cell that shears also -(shear rate) v_y along x; the "
+           "paper's equations have no such term."},
 
       {.name = "equilibrium.force",
        .field = in<&S::equilibrium, &EquilibriumScene::force>,
@@ -70,7 +72,7 @@ std::vector<SceneKey> common_keys() {
        .field = in<&S::equilibrium, &EquilibriumScene::pressure>,
        .unit = "F1/a",
        .range = positive,
-       .meaning = "Largest difference between imposed and measured stress, in each controlled direction."},
+       .meaning = "Largest difference between imposed and measured stress, in each controlled direction and in shear."},
       {.name = "equilibrium.kinetic_energy",
        .field = in<&S::equilibrium, &EquilibriumScene::kinetic_energy>,
        .unit = "F1 a",
@@ -139,6 +141,21 @@ std::vector<SceneKey> common_keys() {
        .unit = "1/T0",
        .absent = "none imposed",
        .meaning = "The same along direction 2."},
+      {.name = "stage.stress_12",
+       .field = in<&S::stages, &StageScene::stress_12>,
+       .unit = "F0/a",
+       .absent = "the cell keeps its angles",
+       .systems = of_disks,
+       .meaning =
+           "Shear stress sigma_12 imposed by tilting the cell, work-conjugate to the strain -d(tilt)/L2; 0 with a "
+           "pressure makes a packing without shear stress (docs/shear.md)."},
+      {.name = "stage.shear_rate",
+       .field = in<&S::stages, &StageScene::shear_rate>,
+       .unit = "1/T0",
+       .absent = "none imposed",
+       .systems = of_disks,
+       .meaning = "Rate d(tilt)/dt / L2 imposed in place of a shear stress: positive moves the top of the cell along "
+                  "direction 1, 0 keeps its angles."},
       {.name = "stage.ramp_time",
        .field = in<&S::stages, &StageScene::ramp_time>,
        .unit = "T0",
@@ -151,8 +168,9 @@ std::vector<SceneKey> common_keys() {
        .unit = "V*",
        .range = not_negative,
        .systems = of_disks,
-       .meaning =
-           "Root mean square velocity drawn at the start of the stage, V* = sqrt(F0 D0 / m); 0: velocities are kept."},
+       .meaning = "Root mean square velocity drawn at the start of the stage, V* = sqrt(F0 D0 / m), without cohesion a "
+                  "sqrt(P / m) "
+                  "with P of the first stage that imposes a stress, or a/T0 if none does; 0: velocities are kept."},
       {.name = "stage.velocity_of",
        .field = in<&S::stages, &StageScene::velocity_of>,
        .choices = names(kVelocityOfNames),
@@ -164,7 +182,7 @@ std::vector<SceneKey> common_keys() {
        .field = in<&S::stages, &StageScene::max_strain_rate>,
        .unit = "1/T0",
        .range = not_negative,
-       .meaning = "Cap of the strain rate of the cell; 0: no cap."},
+       .meaning = "Cap of the strain rate of the cell where a stress drives it; 0: no cap."},
       {.name = "stage.max_edge_speed",
        .field = in<&S::stages, &StageScene::max_edge_speed>,
        .unit = "a/T0",
@@ -211,7 +229,8 @@ std::vector<SceneKey> common_keys() {
       {.name = "stage.strain",
        .field = in<&S::stages, &StageScene::strain>,
        .range = not_negative,
-       .meaning = "|1 - L/L0| of a driven direction that ends a stage with until = \"strain\"."},
+       .meaning = "|1 - L/L0| of a driven direction, or the shear strain d(tilt)/L2 summed up, that ends a stage with "
+                  "until = \"strain\"."},
       {.name = "stage.drop",
        .field = in<&S::stages, &StageScene::drop>,
        .range = {0, 1, true, true},
@@ -239,6 +258,12 @@ std::vector<SceneKey> common_keys() {
       {.name = "output.stages",
        .field = in<&S::output, &OutputScene::stages>,
        .meaning = "Keep the state at the end of each stage but the last: STATE.stage0.h5, STATE.stage1.h5, ..."},
+      {.name = "output.snapshot_interval",
+       .field = in<&S::output, &OutputScene::snapshot_interval>,
+       .unit = "T0",
+       .range = positive,
+       .absent = "none",
+       .meaning = "Time between two copies of the state, STATE.snapshot0001.h5, ..., at its multiples."},
       {.name = "output.snapshot_times",
        .field = in<&S::output, &OutputScene::snapshot_times>,
        .unit = "T0",

@@ -31,7 +31,7 @@ inline constexpr std::array<std::string_view, 2> kIntegratorNames{"verlet", "gea
 // [step]: of disks dt = fraction * sqrt(m_max / K_N), of triangles dt = fraction / omega_max of the smallest grain, of
 // spheres fraction * sqrt(m / k) of the smallest.
 struct StepScene {
-  double fraction = 0.06;  // c [-]
+  std::optional<double> fraction;  // c [-]; absent: the default of the system, or what its smallest grains bear
   Integrator integrator = Integrator::verlet;
   friend bool operator==(const StepScene&, const StepScene&) = default;
 };
@@ -95,8 +95,10 @@ struct StageScene {
   // Of one direction, compression positive [F0/a], [1/T0]; the third in space only.
   std::optional<double> stress_1, stress_2, stress_3;
   std::optional<double> strain_rate_1, strain_rate_2, strain_rate_3;
-  double ramp_time = 0;   // [T0] in which imposed stresses and rates come to these values; 0: at once
-  double velocity = 0.0;  // V0 [V* = sqrt(F0 D0 / m)] rms velocity drawn at the start; 0: keep
+  std::optional<double> stress_12;   // [F0/a] shear stress sigma_12; of disks
+  std::optional<double> shear_rate;  // [1/T0] d(tilt)/dt / L2 in place of it; of disks
+  double ramp_time = 0;              // [T0] in which imposed stresses and rates come to these values; 0: at once
+  double velocity = 0.0;  // V0 [V*, velocity_unit() of dem/solver/agitation.hpp] rms drawn at the start; 0: keep
   VelocityOf velocity_of = VelocityOf::vector;
   double max_strain_rate = 0.05;           // [1/T0] cap of the cell's strain rate; 0: no cap
   std::optional<double> max_edge_speed;    // [a/T0] cap of |Ldot| of each edge that a stress controls; absent: none
@@ -108,7 +110,7 @@ struct StageScene {
   double approach = 0;             // [a/T0] speed of the first soft-particle towards its partner
   Until until = Until::equilibrium;
   double time = 0.0;          // [T0] length of the stage with until = "time"
-  double strain = 0.0;        // [-] |1 - L/L0| of a driven direction that ends the stage
+  double strain = 0.0;        // [-] |1 - L/L0| of a driven direction, or the shear strain, that ends the stage
   double drop = 0.5;          // [-] part of the peak stress whose loss is failure
   double max_time = 20000.0;  // [T0] give up (exit code 3) after so long
   ContainerMotionScene container;
@@ -116,26 +118,32 @@ struct StageScene {
   std::array<std::optional<double>, 3> strain_rates() const { return {strain_rate_1, strain_rate_2, strain_rate_3}; }
   // Strain rates other than 0: of a driven cell.
   bool driven(int direction) const { return strain_rates()[static_cast<std::size_t>(direction)].value_or(0) != 0; }
-  bool driven() const { return driven(0) || driven(1) || driven(2); }
+  bool shear_driven() const { return shear_rate.value_or(0) != 0; }
+  bool driven() const { return driven(0) || driven(1) || driven(2) || shear_driven(); }
   friend bool operator==(const StageScene&, const StageScene&) = default;
 };
 
-// Stress imposed along each edge of the cell [F0/a], compression positive; none: that edge is fixed or driven.
+// Stress imposed along each edge of the cell [F0/a], compression positive; none: that edge is fixed or driven. The
+// shear stress sigma_12 likewise, work-conjugate to the strain -d(tilt)/L2.
 template <int D>
-using ImposedStress = std::array<std::optional<double>, D>;
+struct ImposedStress : std::array<std::optional<double>, D> {
+  std::optional<double> shear = std::nullopt;
+  friend bool operator==(const ImposedStress&, const ImposedStress&) = default;
+};
 template <int D>
 ImposedStress<D> isotropic(std::optional<double> pressure) {
   ImposedStress<D> stress;
   stress.fill(pressure);
   return stress;
 }
-// P [F0/a]: the imposed stress of largest magnitude, with its sign; none if no edge has one.
-template <std::size_t D>
-std::optional<double> largest_stress(const std::array<std::optional<double>, D>& stress) {
+// P [F0/a]: the imposed stress of largest magnitude, with its sign, the shear stress where no edge has one; none if
+// nothing is imposed.
+template <int D>
+std::optional<double> largest_stress(const ImposedStress<D>& stress) {
   std::optional<double> largest;
   for (const std::optional<double>& s : stress)
     if (s && (!largest || std::abs(*largest) < std::abs(*s))) largest = s;
-  return largest;
+  return largest ? largest : stress.shear;
 }
 
 template <int D>
@@ -143,6 +151,7 @@ ImposedStress<D> imposed_stress(const StageScene& stage) {
   ImposedStress<D> imposed = isotropic<D>(stage.pressure);
   for (std::size_t a = 0; a < D; ++a)
     if (stage.stresses()[a] || stage.strain_rates()[a]) imposed[a] = stage.stresses()[a];
+  imposed.shear = stage.stress_12;
   return imposed;
 }
 
@@ -152,8 +161,12 @@ struct OutputScene {
   double series_interval = 1.0;                  // [T0]
   bool energies = false;                         // energy ledger in the series (costs a tally kernel)
   bool stages = false;                           // keep the state at the end of each stage but the last
+  std::optional<double> snapshot_interval;       // [T0] none: only at the times and solid fractions
   std::vector<double> snapshot_times;            // [T0]
   std::vector<double> snapshot_solid_fractions;  // [-]
+  bool keeps_snapshots() const {
+    return snapshot_interval || !snapshot_times.empty() || !snapshot_solid_fractions.empty();
+  }
   friend bool operator==(const OutputScene&, const OutputScene&) = default;
 };
 

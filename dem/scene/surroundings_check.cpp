@@ -123,6 +123,8 @@ std::vector<std::string> cell_keys(const StageScene& s, std::size_t index) {
   if (s.strain_rate_1) keys.push_back(stage_key(index, "strain_rate_1"));
   if (s.strain_rate_2) keys.push_back(stage_key(index, "strain_rate_2"));
   if (s.strain_rate_3) keys.push_back(stage_key(index, "strain_rate_3"));
+  if (s.stress_12) keys.push_back(stage_key(index, "stress_12"));
+  if (s.shear_rate) keys.push_back(stage_key(index, "shear_rate"));
   if (s.max_edge_speed) keys.push_back(stage_key(index, "max_edge_speed"));
   return keys;
 }

@@ -17,6 +17,10 @@ struct MotionStep {
   std::array<double, D> half_scale = ones();  // L(n+1) / L(n+1/2)
   std::array<double, D> keep = ones();        // velocity kept over the step: 1 - drag dt (- rate coupling)
   double keep_spin = 1;
+  // A cell that shears also moves positions along x: by shear y, and by half_shear times the move along y of the step
+  // itself. Velocities lose shear_coupling v_y along x (see cell.rate_coupling).
+  double shear = 0, half_shear = 0, shear_coupling = 0;
+  int turns = 0;  // of the cell at the end of the step: PeriodicCell::turns()
 };
 
 }  // namespace isostat

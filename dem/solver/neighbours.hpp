@@ -84,15 +84,19 @@ class NeighbourLists {
   void update(Bodies& bodies, const Cell& cell, double pair_displacement) {
     inner_travel_ += pair_displacement;
     outer_travel_ += pair_displacement;
-    if (!(inner_travel_ <= inner_skin_)) rebuild(bodies, cell, pair_displacement);
+    if (!(inner_travel_ <= inner_skin_) || turns_ != 0) rebuild(bodies, cell, pair_displacement);
   }
+  // The tilt of the cell has been lowered by so many L1, PeriodicCell::turns(): update() then rebuilds.
+  void turn(int turns) { turns_ += turns; }
   // Bodies that move after update() tell so: it counts towards the next one.
   void add_travel(double pair_displacement) {
     inner_travel_ += pair_displacement;
     outer_travel_ += pair_displacement;
   }
   // Whether update() would rebuild: for who must prepare the bodies.
-  bool outgrown(double pair_displacement) const { return !(inner_travel_ + pair_displacement <= inner_skin_); }
+  bool outgrown(double pair_displacement) const {
+    return !(inner_travel_ + pair_displacement <= inner_skin_) || turns_ != 0;
+  }
   double inner_skin() const { return inner_skin_; }  // [a] within which listed pairs are
 
   Columns& columns() { return columns_; }
@@ -151,6 +155,7 @@ class NeighbourLists {
   double range_;
   double outer_skin_ = 0, inner_skin_ = -1, outer_travel_ = 0, inner_travel_ = 0;  // [a]
   std::size_t inner_rebuilds_ = 0, outer_rebuilds_ = 0;
+  int turns_ = 0;  // since the last rebuild
 
   std::vector<Vec<D>> outer_position_, inner_position_;
   Cell outer_cell_, inner_cell_;

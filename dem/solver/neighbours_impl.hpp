@@ -73,16 +73,16 @@ double NeighbourLists<Columns>::outer_skin_for(const Cell& cell) const {
   // Among many sizes the small grains are the many: a skin of the mean would list most of their second neighbours.
   double wanted = lists::kOuterSkin * (broad() ? smallest_diameter_ : mean_diameter_);
   if constexpr (requires { Columns::kOuterSkin; }) wanted = Columns::kOuterSkin * mean_diameter_;
-  return cell ? std::min(wanted,
-                         *std::min_element(cell->length.c.begin(), cell->length.c.end()) - largest_diameter_ - range_)
-              : wanted;
+  return cell ? std::min(wanted, cell->shortest_spacing() - largest_diameter_ - range_) : wanted;
 }
 
 template <class Columns>
 auto NeighbourLists<Columns>::grid_in(const Frame<D>& frame, double cutoff) const -> CellGrid<D> {
+  const Vec<D> spacing =
+      frame.periodic ? PeriodicCell<D>{frame.length, frame.slant * frame.length[1]}.spacing() : Vec<D>{};
   for (int k = 0; k < D; ++k) {
     if (!std::isfinite(frame.length[k])) throw ListFailure("a position is not a number");
-    if (frame.periodic && !(frame.length[k] >= cutoff))
+    if (frame.periodic && !(spacing[k] >= cutoff))
       throw ListFailure("the cell, L" + std::to_string(k + 1) + " = " + std::to_string(frame.length[k]) +
                         " a, is smaller than the largest interaction distance " + std::to_string(cutoff) +
                         " a: a grain would touch itself");
@@ -126,9 +126,11 @@ void NeighbourLists<Columns>::rebuild(Bodies& bodies, const Cell& cell, double p
   if (bodies_ == 0) return;
   if (!std::isfinite(inner_travel_)) throw ListFailure("a velocity is not a number");
   std::vector<Pair> kept = histories();
+  for (Pair& h : kept) h.shift[0] += turns_ * h.shift[1];
   inner_skin_ = inner_skin_for(pair_displacement);
   // A pair now within the inner range had, when the outer list was made, at most this gap plus what it has moved.
-  if (outer_travel_ + inner_skin_ > outer_skin_) {
+  if (outer_travel_ + inner_skin_ > outer_skin_ || turns_ != 0) {
+    turns_ = 0;
     sort_bodies(bodies, cell, kept);
     outer_skin_ = outer_skin_for(cell);
     inner_skin_ = inner_skin_for(pair_displacement);
@@ -147,10 +149,12 @@ void NeighbourLists<Columns>::sort_bodies(Bodies& bodies, const Cell& cell, std:
   for (std::size_t k = 0; k < bodies_; ++k) {
     Vec<D>& r = position[k] = bodies.position(k);
     if (!cell) continue;
+    const Vec<D> fractions = cell->fractions(r);
     for (int a = 0; a < D; ++a) {
-      const double cells = std::floor(r[a] / cell->length[a]);
+      const double cells = std::floor(fractions[a]);
       if (!(std::abs(cells) < 1e6)) throw ListFailure("grain " + std::to_string(bodies.id[k]) + " has left the cell");
       r[a] -= cells * cell->length[a];
+      if (a == 1) r[0] -= cells * cell->tilt;
       wraps[k][static_cast<std::size_t>(a)] = static_cast<int>(cells);
     }
     bodies.place(k, r);
@@ -227,7 +231,8 @@ void NeighbourLists<Columns>::find_outer(const Bodies& bodies) {
   outer_i_.clear(), outer_j_.clear(), outer_shift_.clear();
 
   const CellGrid<D> grid = grid_in(frame_of(outer_cell_, outer_position_), largest_diameter_ + range_ + outer_skin_);
-  if (broad()) return find_outer_by_size(bodies);
+  // The grids of the sizes stand upright: a tilted cell is searched with the one of the largest grain.
+  if (broad() && grid.upright()) return find_outer_by_size(bodies);
   const GridMembers<D> members(grid, outer_position_);
   for (std::size_t i = 0; i < bodies_; ++i) {
     const Vec<D> ri = outer_position_[i];
@@ -370,21 +375,21 @@ void NeighbourLists<Columns>::remember(ListMemory<D>& m, std::vector<Pair>& pair
   pairs = histories();
   m.outer_position = outer_position_, m.inner_position = inner_position_;
   m.outer_length = length(outer_cell_), m.inner_length = length(inner_cell_);
+  m.outer_tilt = outer_cell_ ? outer_cell_->tilt : 0, m.inner_tilt = inner_cell_ ? inner_cell_->tilt : 0;
   m.outer_skin = outer_skin_, m.inner_skin = inner_skin_;
   m.outer_travel = outer_travel_, m.inner_travel = inner_travel_;
 }
 
 template <class Columns>
 void NeighbourLists<Columns>::restore(const Bodies& bodies, const ListMemory<D>& m, const std::vector<Pair>& pairs) {
-  const auto cell = [](const Vec<D>& length) { return length == Vec<D>{} ? Cell{} : PeriodicCell<D>{length}; };
   measure(bodies);
   if (bodies_ == 0) return;
   Bodies then = bodies;
   for (std::size_t k = 0; k < bodies_; ++k) then.place(k, m.outer_position[k]);
-  outer_cell_ = cell(m.outer_length), outer_skin_ = m.outer_skin;
+  outer_cell_ = listed_cell(m.outer_length, m.outer_tilt), outer_skin_ = m.outer_skin;
   find_outer(then);
   for (std::size_t k = 0; k < bodies_; ++k) then.place(k, m.inner_position[k]);
-  inner_cell_ = cell(m.inner_length), inner_skin_ = m.inner_skin;
+  inner_cell_ = listed_cell(m.inner_length, m.inner_tilt), inner_skin_ = m.inner_skin;
   filter_inner(then, pairs);
   outer_travel_ = m.outer_travel, inner_travel_ = m.inner_travel;
 }

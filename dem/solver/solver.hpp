@@ -34,8 +34,9 @@ struct StepTimes {
 // Sums over the bodies and links of one instant, from which the stress follows [F0 a].
 template <int D>
 struct StressSums {
-  std::array<double, D> kinetic{};  // sum of m v_a^2
-  std::array<double, D> virial{};   // sum of F_a r_a, repulsion positive
+  std::array<double, D> kinetic{};             // sum of m v_a^2
+  std::array<double, D> virial{};              // sum of F_a r_a, repulsion positive
+  double shear_kinetic = 0, shear_virial = 0;  // of m v_1 v_2 and F_1 r_2; where the cell shears
 };
 
 // How far the bodies went in a step.

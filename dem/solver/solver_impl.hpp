@@ -24,6 +24,9 @@ Solver<System>::Solver(const State<System>& state, const CellControl<D>& control
   if (control.moves() && !cell_)
     throw InputError("scene", 0, "stage", "",
                      "a stress or strain rate needs a periodic cell; this packing is isolated");
+  if (constexpr bool can = requires { Engine::kShears; }; control.shears() && !can)
+    throw InputError("scene", 0, "stage", "",
+                     "a cell shears with disks in it, and not with " + std::string(System::name));
   if (engine_.begins()) {
     engine_.compute_forces(cell_, flow_, 0.0);
     engine_.start_half_steps();
@@ -63,7 +66,8 @@ double Solver<System>::advance() {
   const MotionStep<D> step = move_cell();
   const Advance moved = engine_.advance(step, drag_);
   const bool sane = std::all_of(step.scale.begin(), step.scale.end(),
-                                [](double scale) { return std::abs(scale - 1) <= kMostStrain; });
+                                [](double scale) { return std::abs(scale - 1) <= kMostStrain; }) &&
+                    std::abs(step.shear) <= kMostStrain;
   if (moved.violent || !sane) check_sanity();
   return moved.displacement;
 }
@@ -78,7 +82,8 @@ void Solver<System>::update_lists(double displacement) {
   }
 }
 
-// sigma_aa = (1/V) [sum m v_a^2 + sum over pairs F_a r_a], each pair once, compression positive.
+// sigma_ab = (1/V) [sum m v_a v_b + sum over pairs F_a r_b], each pair once, compression positive: the diagonal, and
+// sigma_12 of a cell that shears.
 template <class System>
 void Solver<System>::measure_stress() {
   if (!control_.moves()) return;
@@ -86,6 +91,7 @@ void Solver<System>::measure_stress() {
   const double volume = cell_->measure();
   for (std::size_t a = 0; a < D; ++a)
     cell_motion_.stress[static_cast<int>(a)] = (sums.kinetic[a] + sums.virial[a]) / volume;
+  if (control_.shears()) cell_motion_.shear_stress = (sums.shear_kinetic + sums.shear_virial) / volume;
 }
 
 template <class System>
@@ -112,6 +118,10 @@ void Solver<System>::check_cell() const {
       throw RunError(step_, -1,
                      "the cell collapses, L" + std::to_string(a + 1) + " = " + std::to_string(cell_->length[a]),
                      "set stage.max_strain_rate or stage.max_edge_speed, raise cell.inertia or lower stage.pressure");
+  if (!(std::abs(cell_motion_.shear_strain_rate) * dt_ <= kMostStrain))
+    throw RunError(step_, -1,
+                   "the cell shears by " + std::to_string(cell_motion_.shear_strain_rate * dt_) + " in a step",
+                   "set stage.max_strain_rate, raise cell.inertia or lower stage.stress_12 or stage.shear_rate");
 }
 
 }  // namespace isostat

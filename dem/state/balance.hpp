@@ -12,7 +12,8 @@ struct StressTensor {
   double xx = 0, xy = 0, yx = 0, yy = 0;
 };
 inline Vec2 diagonal(const StressTensor& s) { return {{s.xx, s.yy}}; }
-StressTensor measured_stress(const Packing<2>& packing);  // needs a cell
+inline double shear_of(const StressTensor& s) { return s.xy; }  // conjugate to the shear of a cell
+StressTensor measured_stress(const Packing<2>& packing);        // needs a cell
 // Of a state whose links say all of it.
 template <class State>
 requires requires(const State& s) { measured_stress(s.packing); }

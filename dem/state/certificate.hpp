@@ -14,7 +14,7 @@ inline constexpr double kLoadTolerance = 1e-4;
 struct Certificate {
   double max_force = 0;                 // [F1]
   double max_moment = 0;                // [F1 a]
-  double pressure_error = 0;            // [F1/a] largest over the controlled directions; 0 in a fixed cell
+  double pressure_error = 0;            // [F1/a] largest over the controlled directions and sigma_12; 0 in a fixed cell
   double kinetic_energy_per_grain = 0;  // [F1 a]
   double force_scale = 1;               // F1 = max(F0, a P) [F0]
   double tolerance_force = 1e-4, tolerance_pressure = 1e-4, tolerance_kinetic = 5e-8;

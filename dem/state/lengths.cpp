@@ -51,6 +51,9 @@ void require_lengths(const std::optional<PeriodicCell<D>>& cell, const Bodies<D>
             std::string(cell ? "an edge" : "the extent of the packing") + " is above " + text(kLargestExtent) +
                 " of the largest radius");
   }
+  if (cell && !(std::abs(cell->tilt) <= kMostTilt * cell->length[0]))
+    faults.push_back({path, cell_line, "tilt", text(cell->tilt),
+                      "at most " + text(kMostTilt) + " L1 either way: cells whose tilts differ by L1 are the same"});
   if (gap_tolerance && *gap_tolerance > kLargestGapTolerance * largest)
     fault("--gap-tolerance", *gap_tolerance,
           "at most " + text(kLargestGapTolerance) + " of the largest radius, " + text(largest));

@@ -11,6 +11,7 @@ namespace isostat {
 inline constexpr double kSmallestCell =
     0.1;  // [largest radius] edge of a cell: below, grains meet dozens of own images
 inline constexpr double kLargestExtent = 1e6;   // [largest radius] edge of a cell, or of the box of an isolated packing
+inline constexpr double kMostTilt = 100;        // [L1]
 inline constexpr double kSmallestGrain = 1e-6;  // [largest radius]
 inline constexpr double kLeastRadius = 1e-60, kMostRadius = 1e60;  // [length of the file] of the largest grain
 inline constexpr double kLargestGapTolerance = 10;                 // [largest radius]

@@ -16,6 +16,8 @@ struct CellMotion {
   Vec<D> reference_length{};  // [a] L0: the cell at the start of the stage; strain rate = -Ldot / L0; 0 without cell
   Vec<D> strain_rate{};       // [1/T0] at the last half step, compression positive
   Vec<D> stress{};  // [F0/a] measured sigma_11, sigma_22(, sigma_33) at `time`, kinetic and viscous parts included
+  // Of a cell that shears: eps_12' and sigma_12 in the same sense, and d(tilt)/L2 summed up since the stage began.
+  double shear_strain_rate = 0, shear_stress = 0, shear_strain = 0;
 };
 
 // Energy taken out of, or put into, the bodies since the start of the run; kept only when the scene asks for energies.
@@ -40,8 +42,11 @@ struct StageProgress {
   double unchanged_since = 0;     // [T0] since when it has been the same
   double start_stiffness = 0;     // K_N [F0/a] when the stage began
   Vec<D> start_stress{};          // [F0/a] static stress sigma_11, sigma_22(, sigma_33) when the stage began
+  double start_shear_stress = 0;  // [F0/a] and sigma_12
   Vec<D> ramp_stress{};           // [F0/a] imposed when the stage began, where nothing was: static
   Vec<D> ramp_rate{};             // [1/T0] strain rate imposed then
+  double ramp_shear_stress = 0;   // [F0/a] and of shear
+  double ramp_shear_rate = 0;     // [1/T0]
   double carried_stress = 0;      // [F0/a] that the tested direction carries, a mean over the last looks
   double carried_at = 0;          // [T0] of these the last
   double peak_stress = 0;         // [F0/a] the largest carried stress so far

@@ -55,7 +55,7 @@ std::optional<StateFault> lists_fault(const ListMemory<D>& m) {
   if (auto f = check_values(m.outer_position, "solver/outer_position")) return f;
   if (auto f = check_values(m.inner_position, "solver/inner_position")) return f;
   if (!finite(m.outer_length) || !finite(m.inner_length) || !finite(m.outer_travel) || !finite(m.inner_travel) ||
-      !finite(m.outer_skin) || !finite(m.inner_skin))
+      !finite(m.outer_skin) || !finite(m.inner_skin) || !finite(m.outer_tilt) || !finite(m.inner_tilt))
     return StateFault{"solver", "a length that is not a finite number"};
   return std::nullopt;
 }
@@ -81,15 +81,20 @@ std::optional<StateFault> run_fault(const State<System>& s) {
     return StateFault{"run", "a time or step that is negative or not a finite number"};
   for (const auto& stress : s.imposed_stress)
     if (stress && !finite(*stress)) return StateFault{"run", "an imposed stress that is not a finite number"};
-  if (!finite(s.cell_motion.reference_length) || !finite(s.cell_motion.strain_rate) || !finite(s.cell_motion.stress))
+  if (s.imposed_stress.shear && !finite(*s.imposed_stress.shear))
+    return StateFault{"run", "an imposed shear stress that is not a finite number"};
+  const CellMotion<System::dimension>& motion = s.cell_motion;
+  if (!finite(motion.reference_length) || !finite(motion.strain_rate) || !finite(motion.stress) ||
+      !finite(motion.shear_strain_rate) || !finite(motion.shear_stress) || !finite(motion.shear_strain))
     return StateFault{"cell", "a number that is not finite"};
   if (name(s.scene.system) != System::name) return StateFault{"scene", "is of another system than the state"};
   if (s.progress.stage < 0 || static_cast<std::size_t>(s.progress.stage) > s.scene.stages.size())
     return StateFault{"progress", "stage is not one of the scene's"};
   if (!finite(s.progress.start_time) || !finite(s.progress.quiet_since) || !finite(s.progress.unchanged_since) ||
-      !finite(s.progress.start_stiffness) || !finite(s.progress.start_stress) || !finite(s.progress.ramp_stress) ||
-      !finite(s.progress.ramp_rate) || !finite(s.progress.carried_stress) || !finite(s.progress.carried_at) ||
-      !finite(s.progress.peak_stress))
+      !finite(s.progress.start_stiffness) || !finite(s.progress.start_stress) ||
+      !finite(s.progress.start_shear_stress) || !finite(s.progress.ramp_stress) || !finite(s.progress.ramp_rate) ||
+      !finite(s.progress.ramp_shear_stress) || !finite(s.progress.ramp_shear_rate) ||
+      !finite(s.progress.carried_stress) || !finite(s.progress.carried_at) || !finite(s.progress.peak_stress))
     return StateFault{"progress", "a number that is not finite"};
   const Surroundings& around = s.surroundings;
   if (!finite(around.start_offset) || !finite(around.start_angle) || !finite(around.mass_left) ||

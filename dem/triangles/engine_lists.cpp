@@ -42,9 +42,7 @@ void TriangleEngine::restore_lists(const State<TriangleGrains>& state) {
   then[Store::angle] = store_[Store::built_angle];
   kernels_.corners(0, then.slots(), then.arrays());
   then.measure_circles();
-  build_candidates(then, state.memory.lists.inner_length == Vec2{}
-                             ? Cell{}
-                             : Cell{PeriodicCell<2>{state.memory.lists.inner_length}});
+  build_candidates(then, listed_cell(state.memory.lists.inner_length, state.memory.lists.inner_tilt));
   candidates_.set_offsets(cell_);
 }
 

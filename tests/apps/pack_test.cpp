@@ -141,6 +141,19 @@ TEST_F(Pack, SeriesAndSnapshotsOnlyWatch) {
   EXPECT_FALSE(exists("seen.snapshot0004.h5"));
 }
 
+TEST_F(Pack, SnapshotsAtMultiplesOfAnInterval) {
+  ASSERT_EQ(run(pack("plain.h5")).code, 0);
+  ASSERT_EQ(run(pack("seen.h5", "--set output.snapshot_interval=1.5 --set output.snapshot_times=[1.0,3.0]")).code, 0);
+  EXPECT_EQ(hash("seen.h5"), hash("plain.h5"));
+  const std::vector<double> times{1, 1.5, 3, 4.5};  // one file where both ask for it
+  for (std::size_t k = 0; k < times.size(); ++k)
+    EXPECT_NEAR(read_state<Disks>(in_folder("seen.snapshot000" + std::to_string(k + 1) + ".h5")).time, times[k], 0.01);
+  EXPECT_FALSE(exists("seen.snapshot0005.h5"));
+  const Outcome o = run(pack("bad.h5", "--set output.snapshot_interval=0"));
+  EXPECT_EQ(o.code, 2);
+  EXPECT_THAT(o.err, HasSubstr("output.snapshot_interval = 0"));
+}
+
 TEST_F(Pack, InterruptedRunsResumeToTheSameBits) {
   const std::string more = " --set stage.1.time=200 --set output.series='\"" + in_folder("series.csv") +
                            "\"' --set output.snapshot_times=[0.5,150.0]";

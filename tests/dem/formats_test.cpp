@@ -210,8 +210,12 @@ TEST(Dump, RefusesTruncatedTiltedAndForeignText) {
   const std::string whole = kForeignDump;
   write_files_atomically({{dir / "l.dump", whole.substr(0, whole.find("6 0.75"))}});
   EXPECT_THAT(faults_of(dir / "l.dump"), HasSubstr("1 rows are missing"));
-  write_files_atomically({{dir / "l.dump", "ITEM: BOX BOUNDS xy xz yz pp pp pp\n"}});
-  EXPECT_THAT(faults_of(dir / "l.dump"), HasSubstr("tilted"));
+  write_files_atomically({{dir / "l.dump", "ITEM: BOX BOUNDS xy xz yz pp pp pp\n0 4 1\n0 4 1\n0 1 0\n"}});
+  EXPECT_THAT(faults_of(dir / "l.dump"), HasSubstr("only xy may tilt a cell"));
+  write_files_atomically({{dir / "l.dump", "ITEM: BOX BOUNDS xy pp pp pp\n"}});
+  EXPECT_THAT(faults_of(dir / "l.dump"), HasSubstr("'pp pp pp' or 'xy xz yz pp pp pp'"));
+  write_files_atomically({{dir / "l.dump", "ITEM: BOX BOUNDS xy xz yz pp pp pp\n0 3 4\n0 4 0\n0 1 0\n"}});
+  EXPECT_THAT(faults_of(dir / "l.dump"), HasSubstr("the bounds of x are those of the tilted cell"));
   write_files_atomically(
       {{dir / "l.dump",
         "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp ff pp\n0 1\n0 1\n0 1\nITEM: "

@@ -1,6 +1,6 @@
-// Every kernel (law x instruction set x tally x images) against the reference law of tests/oracle/disk_reference, on
-// random pairs: bodies shared by several pairs, some pairs in contact, some just formed, some across a gap, some out of
-// reach, padding at the end.
+// Every kernel (law x instruction set x tally x flow x images) against the reference law of
+// tests/oracle/disk_reference, on random pairs: bodies shared by several pairs, some pairs in contact, some just
+// formed, some across a gap, some out of reach, padding at the end.
 #include "dem/disks/kernel/pair_force.hpp"
 
 #include <gtest/gtest.h>
@@ -66,6 +66,7 @@ struct Fixture {
     in.time_step = 0.01;
     in.images = images;
     in.flow_half[0] = -0.3, in.flow_half[1] = 0.2, in.flow_now[0] = -0.31, in.flow_now[1] = 0.19;
+    in.shear_half = 0.4, in.shear_now = 0.41;
     const double length[2] = {7, 9};
     for (int c = 0; c < 9; ++c) in.offset_x[c] = (c % 3 - 1) * length[0], in.offset_y[c] = (c / 3 - 1) * length[1];
 
@@ -114,11 +115,11 @@ struct Fixture {
 };
 
 struct Sums {
-  double virial[2] = {0, 0}, sliding = 0, rolling = 0;
+  double virial[2] = {0, 0}, sliding = 0, rolling = 0, shear_virial = 0;
 };
 
 // Loads by body (Fx, Fy, moment) and sums, from the reference; springs are left in `pairs`.
-Sums reference(Fixture& f, bool flow, std::vector<double>& loads, int& contacts, int& formed, int& slid) {
+Sums reference(Fixture& f, bool flow, bool shear, std::vector<double>& loads, int& contacts, int& formed, int& slid) {
   Sums s;
   loads.assign(3 * f.bodies.size(), 0);
   for (std::size_t k = 0; k < kPairs; ++k) {
@@ -127,6 +128,7 @@ Sums reference(Fixture& f, bool flow, std::vector<double>& loads, int& contacts,
       p.u += f.in.flow_half[0] * p.x, p.v += f.in.flow_half[1] * p.y;
       p.p += f.in.flow_now[0] * p.x, p.q += f.in.flow_now[1] * p.y;
     }
+    if (shear) p.u += f.in.shear_half * p.y, p.p += f.in.shear_now * p.y;
     const oracle::PairResponse r = oracle::pair_response(f.in.law, p);
     const double closing = -(p.x * p.u + p.y * p.v) / std::hypot(p.x, p.y);
     contacts += r.gap < 0, formed += r.gap < 0 && r.gap + closing * p.time_step > 0, slid += r.sliding > 0;
@@ -135,6 +137,7 @@ Sums reference(Fixture& f, bool flow, std::vector<double>& loads, int& contacts,
     b[0] += r.fx, b[1] += r.fy, b[2] += r.moment_j;
     s.virial[0] += r.fx * p.x, s.virial[1] += r.fy * p.y;
     s.sliding += r.sliding, s.rolling += r.rolling;
+    if (shear) s.shear_virial += r.fx * p.y;
     f.pairs[k].tangential = r.tangential, f.pairs[k].moment = r.moment;
   }
   return s;
@@ -143,22 +146,29 @@ Sums reference(Fixture& f, bool flow, std::vector<double>& loads, int& contacts,
 TEST(PairForce, EveryKernelIsTheReferenceLaw) {
   for (const LawCase& c : law_cases())
     for (Isa isa : machine_isas())
-      for (Tally tally : {Tally::nothing, Tally::stress, Tally::energy})
+      for (const auto& [tally, flow] :
+           {std::pair(Tally::nothing, Flow::stretch), std::pair(Tally::stress, Flow::stretch),
+            std::pair(Tally::energy, Flow::stretch), std::pair(Tally::stress, Flow::shear),
+            std::pair(Tally::energy, Flow::shear)})
         for (bool images : {false, true}) {
           SCOPED_TRACE(std::string(name(isa)) + (c.adhesion ? " adhesion" : "") + (c.damping ? " damping" : "") +
                        (c.friction ? " friction" : "") + (c.rolling ? " rolling" : "") + " tally " +
-                       std::to_string(static_cast<int>(tally)) + (images ? " images" : ""));
+                       std::to_string(static_cast<int>(tally)) + (flow == Flow::shear ? " shear" : "") +
+                       (images ? " images" : ""));
           const DiskLaw law = law_of(c);
           Fixture f(law, images, 7);
           std::vector<double> expected;
           int contacts = 0, formed = 0, slid = 0;
           // A kernel that measures nothing serves fixed cells: it ignores the flow.
-          const Sums sums = reference(f, tally != Tally::nothing, expected, contacts, formed, slid);
+          const Sums sums =
+              reference(f, tally != Tally::nothing, flow == Flow::shear, expected, contacts, formed, slid);
           ASSERT_GT(contacts, 80);
           ASSERT_GT(formed, 10);
           ASSERT_TRUE(!c.friction || slid > 10);
-          const PairForceTally got = select_kernel(law, tally, isa)(f.in);
+          const PairForceTally got = select_kernel(law, tally, isa, flow)(f.in);
           const double scale = 100;
+          EXPECT_NEAR(got.shear_virial, sums.shear_virial, 1e-11 * scale);
+          EXPECT_EQ(got.shear_virial != 0, flow == Flow::shear);
           for (std::size_t k = 0; k < f.bodies.size(); ++k) {
             const double* load = f.bodies.load(k);
             ASSERT_NEAR(load[0], expected[3 * k], kRounding * scale) << "Fx of " << k;

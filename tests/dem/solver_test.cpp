@@ -151,6 +151,56 @@ TEST(Solver, MarchesLikeTheReferenceSolver) {
   }
 }
 
+// The reference never lowers its tilt: that the cell turns back, several times here, changes nothing.
+TEST(Solver, ShearsLikeTheReferenceSolver) {
+  struct Case {
+    const char* name;
+    RandomDisks disks;
+    std::optional<double> stress_1, stress_2, stress_12;
+    double shear_rate;
+    bool rate_coupling = false;
+    double drag = 0;
+  };
+  RandomDisks strip = with(soft_law(), 4), polydisperse = with(soft_law(), 5);
+  strip.aspect = 5;
+  polydisperse.diameter_min = 0.1, polydisperse.step_fraction = 0.02, polydisperse.speed = 0.5;
+  for (const Case& c : {Case{"constant volume", with(soft_law(), 1), {}, {}, {}, 6},
+                        Case{"constant normal stress", with(soft_law(), 2), {}, 40, {}, -6},
+                        Case{"both edges free", with(no_cohesion(soft_law()), 3), 30, 40, {}, 6},
+                        Case{"shear stress alone", with(frictionless(), 4), {}, {}, -30, 0},
+                        Case{"all three stresses", with(no_rolling(soft_law()), 5), 30, 40, 20, 0},
+                        Case{"rate coupling and drag", with(soft_law(), 6), 30, 40, {}, 6, true, 0.5},
+                        Case{"a strip", strip, 30, 40, {}, 6}, Case{"size ratio 10", polydisperse, {}, 10, {}, 6}}) {
+    SCOPED_TRACE(c.name);
+    State<Disks> s = random_state(c.disks);
+    CellControl<2> control = barostat(s, 0, 2.0);
+    control.stress[0] = c.stress_1, control.stress[1] = c.stress_2, control.stress.shear = c.stress_12;
+    control.shear_rate = c.shear_rate, control.rate_coupling = c.rate_coupling;
+    DiskReference reference(s, control);
+    Solver solver(s, control);
+    solver.set_drag(c.drag), reference.set_drag(c.drag);
+    int lowered = 0;
+    for (int k = 0; k < 400; ++k) {
+      const double before = solver.cell()->tilt;
+      solver.step(), reference.step();
+      lowered += std::abs(solver.cell()->tilt - before) > 0.5 * solver.cell()->length[0];
+      ASSERT_LE(std::abs(solver.cell()->tilt), 0.5 * solver.cell()->length[0]);
+    }
+    solver.snapshot(s);
+    const PeriodicCell<2>& cell = *s.packing.cell;
+    EXPECT_GE(lowered, c.shear_rate != 0 && c.disks.aspect == 1 && c.disks.diameter_min > 0.2 ? 2 : 0);
+    EXPECT_NEAR(cell.tilt, reference.tilt() - std::lround(reference.tilt() / cell.length[0]) * cell.length[0], 1e-9);
+    EXPECT_NEAR(s.cell_motion.shear_strain_rate, reference.shear_strain_rate(), 1e-9);
+    EXPECT_NEAR(s.cell_motion.shear_stress, reference.shear_stress(), 1e-6);
+    const Difference d = difference(s, reference);
+    EXPECT_LT(d.position, 1e-9);
+    EXPECT_LT(d.velocity, 1e-7);
+    EXPECT_LT(d.spin, 1e-6);
+    EXPECT_GT(reference.interactions(), 10u);
+    for (int a = 0; a < 2; ++a) EXPECT_NEAR(cell.length[a], reference.length()[static_cast<std::size_t>(a)], 1e-9);
+  }
+}
+
 // Every interacting pair and image, once, as brute force finds it.
 using PairName = std::tuple<std::int64_t, std::int64_t, int, int>;
 PairName named(std::int64_t a, std::int64_t b, int s1, int s2) {
@@ -184,6 +234,7 @@ TEST(NeighbourLists, HoldEveryInteractionOnceWhateverTheCellDoes) {
     double solid_fraction, squeeze, diameter_min, aspect, pressure, range;
     std::int64_t steps;
     std::size_t links;  // seen at once, at least
+    double shear_rate = 0;
   };
   // Cells down to just above the interaction range: there a pair touches through several images at once.
   for (const Case& c : {Case{"compression", 60, 0.4, 1, 0.5, 1, 200, 0.05, 400, 60},
@@ -193,14 +244,20 @@ TEST(NeighbourLists, HoldEveryInteractionOnceWhateverTheCellDoes) {
                         Case{"two equal disks, tiny cell", 2, 0.3, 0.56, 0.99, 1, 0, 0.05, 300, 3},
                         Case{"three disks in a narrow strip", 3, 0.3, 0.75, 0.9, 3.2, 0, 0.05, 300, 2},
                         Case{"expansion", 60, 0.5, 0.92, 0.5, 1, -100, 0.05, 300, 30},
-                        Case{"more pairs than a deck", 300, 0.5, 0.92, 0.5, 1, 200, 0.05, 140, 300}}) {
+                        Case{"more pairs than a deck", 300, 0.5, 0.92, 0.5, 1, 200, 0.05, 140, 300},
+                        Case{"shear", 60, 0.5, 0.92, 0.5, 1, 0, 0.05, 400, 60, 6},
+                        Case{"shear and compression", 60, 0.4, 1, 0.5, 1, 200, 0.05, 400, 60, -6},
+                        Case{"shear, size ratio 10", 80, 0.35, 1, 0.1, 1, 100, 0.05, 300, 25, 20},
+                        Case{"shear, long range", 40, 0.15, 0.8, 0.5, 1, 20, 0.6, 200, 60, 6},
+                        Case{"shear of three disks in a narrow strip", 3, 0.3, 0.75, 0.9, 3.2, 0, 0.05, 300, 2, 6}}) {
     SCOPED_TRACE(c.name);
     RandomDisks r;
     r.count = c.count, r.solid_fraction = c.solid_fraction, r.squeeze = c.squeeze, r.aspect = c.aspect;
     r.diameter_min = c.diameter_min, r.law = soft_law(), r.law.attraction_range = c.range;
     if (c.diameter_min < 0.2) r.step_fraction = 0.01;
     State<Disks> s = random_state(r);
-    const CellControl<2> control = c.pressure == 0 ? CellControl<2>{} : barostat(s, c.pressure, 3.0);
+    CellControl<2> control = c.pressure == 0 ? CellControl<2>{} : barostat(s, c.pressure, 3.0);
+    control.shear_rate = c.shear_rate;
     Solver solver(s, control);
     std::size_t most = 0;
     for (std::int64_t k = 0; k < c.steps; ++k) {

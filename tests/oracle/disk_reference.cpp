@@ -84,6 +84,7 @@ DiskReference::DiskReference(const State<Disks>& s, const CellControl<2>& contro
     reference_[k] = s.cell_motion.reference_length[a];
     rate_[k] = s.cell_motion.strain_rate[a];
   }
+  tilt_ = s.packing.cell->tilt, shear_rate_ = s.cell_motion.shear_strain_rate;
   const Bodies<2>& b = s.packing.bodies;
   disks_.resize(b.size());
   for (std::size_t k = 0; k < b.size(); ++k) {
@@ -115,15 +116,13 @@ const DiskMoment& DiskReference::disk(std::int64_t id) const {
 
 void DiskReference::step() {
   std::array<double, 2> keep = {1 - drag_ * dt_, 1 - drag_ * dt_}, before = length_, half = length_;
+  const double tilt_before = tilt_, old_shear = shear_rate_;
   if (control_.moves())
     for (std::size_t a = 0; a < 2; ++a) {
       const double old = rate_[a];
       if (control_.stress[a]) {
         rate_[a] = old + dt_ * (*control_.stress[a] - stress_[a]) / control_.inertia;
-        if (control_.max_strain_rate > 0)
-          rate_[a] = std::min(control_.max_strain_rate, std::max(-control_.max_strain_rate, rate_[a]));
-        if (std::abs(rate_[a]) * reference_[a] > control_.max_edge_speed)
-          rate_[a] = std::copysign(control_.max_edge_speed / reference_[a], rate_[a]);
+        rate_[a] = limited(rate_[a], reference_[a]);
       } else {
         rate_[a] = control_.strain_rate[static_cast<int>(a)];
       }
@@ -134,27 +133,55 @@ void DiskReference::step() {
       flow_now_[a] = -rate_now * reference_[a] / length_[a];
       if (control_.rate_coupling) keep[a] -= dt_ * flow_half_[a];
     }
+  tilt_ *= length_[0] / before[0];
+  double coupling = 0;
+  if (control_.stress.shear || control_.shear_rate != 0) {
+    shear_rate_ =
+        control_.stress.shear
+            ? limited(old_shear + dt_ * (*control_.stress.shear - shear_stress_) / control_.inertia, reference_[1])
+            : -control_.shear_rate * before[1] / reference_[1];
+    const double speed = -shear_rate_ * reference_[1];  // of the upper edge along x
+    tilt_ += dt_ * speed;
+    // (v_x)/dy of the flow that takes the edges of the old cell to those of the new one, at the cell midway.
+    shear_half_ = ((tilt_ - tilt_before) / dt_ - flow_half_[0] * 0.5 * (tilt_ + tilt_before)) / half[1];
+    shear_now_ = -(shear_rate_ + 0.5 * (shear_rate_ - old_shear)) * reference_[1] / length_[1];
+    if (control_.rate_coupling) coupling = dt_ * shear_half_;
+  }
+  const double half_tilt = 0.5 * (tilt_ + tilt_before);
   double lightest = INFINITY;
   for (const DiskMoment& d : disks_) lightest = std::min(lightest, d.mass);
   const double ahead = dt_ * velocity_prediction(law_, lightest, dt_);
   const bool turns = law_.friction > 0 || law_.rolling_friction > 0;
   for (DiskMoment& d : disks_) {
     const double ax = d.fx / d.mass, ay = d.fy / d.mass, b = d.torque / d.inertia;
-    d.u = (d.u + dt_ * ax) * keep[0], d.v = (d.v + dt_ * ay) * keep[1];
+    const double v_before = d.v + dt_ * ay;
+    d.u = (d.u + dt_ * ax) * keep[0] - coupling * v_before, d.v = v_before * keep[1];
     if (turns) d.w = (d.w + dt_ * b) * (1 - drag_ * dt_);
     d.p = d.u + ahead * ax, d.q = d.v + ahead * ay;
     // The position in units of the cell moves by the peculiar velocity.
-    d.x = length_[0] * (d.x / before[0] + dt_ * d.u / half[0]);
-    d.y = length_[1] * (d.y / before[1] + dt_ * d.v / half[1]);
+    const double along_2 = d.y / before[1] + dt_ * d.v / half[1];
+    const double along_1 =
+        (d.x - tilt_before * (d.y / before[1])) / before[0] + dt_ * (d.u - half_tilt * (d.v / half[1])) / half[0];
+    d.x = length_[0] * along_1 + tilt_ * along_2;
+    d.y = length_[1] * along_2;
   }
   forces(dt_);
 }
 
+// What the caps leave of a rate that a stress drives.
+double DiskReference::limited(double rate, double reference) const {
+  if (control_.max_strain_rate > 0)
+    rate = std::min(control_.max_strain_rate, std::max(-control_.max_strain_rate, rate));
+  if (std::abs(rate) * reference > control_.max_edge_speed)
+    rate = std::copysign(control_.max_edge_speed / reference, rate);
+  return rate;
+}
+
 void DiskReference::forces(double dt) {
-  double virial_x = 0, virial_y = 0, kinetic_x = 0, kinetic_y = 0;
+  double virial_x = 0, virial_y = 0, kinetic_x = 0, kinetic_y = 0, virial_xy = 0, kinetic_xy = 0;
   for (DiskMoment& d : disks_) {
     d.fx = d.fy = d.torque = 0;
-    kinetic_x += d.mass * d.p * d.p, kinetic_y += d.mass * d.q * d.q;
+    kinetic_x += d.mass * d.p * d.p, kinetic_y += d.mass * d.q * d.q, kinetic_xy += d.mass * d.p * d.q;
   }
   interactions_ = 0;
   const int n = static_cast<int>(disks_.size());
@@ -162,20 +189,20 @@ void DiskReference::forces(double dt) {
     for (int j = i + 1; j < n; ++j) {
       DiskMoment &a = disks_[static_cast<std::size_t>(i)], &b = disks_[static_cast<std::size_t>(j)];
       // Disks are not wrapped: the images to look at are those around the nearest one.
-      const int near_x = -static_cast<int>(std::lround((b.x - a.x) / length_[0]));
       const int near_y = -static_cast<int>(std::lround((b.y - a.y) / length_[1]));
-      for (int s1 = near_x - 1; s1 <= near_x + 1; ++s1)
-        for (int s2 = near_y - 1; s2 <= near_y + 1; ++s2) {
+      for (int s2 = near_y - 1; s2 <= near_y + 1; ++s2) {
+        const int near_x = -static_cast<int>(std::lround((b.x - a.x + s2 * tilt_) / length_[0]));
+        for (int s1 = near_x - 1; s1 <= near_x + 1; ++s1) {
           PairMoment c;
-          c.x = b.x - a.x + s1 * length_[0], c.y = b.y - a.y + s2 * length_[1];
+          c.x = b.x - a.x + s1 * length_[0] + s2 * tilt_, c.y = b.y - a.y + s2 * length_[1];
           if (std::hypot(c.x, c.y) > a.radius + b.radius + law_.attraction_range) {
             springs_.erase({i, j, s1, s2});
             continue;
           }
           ++interactions_;
           c.radius_i = a.radius, c.radius_j = b.radius, c.mass_i = a.mass, c.mass_j = b.mass;
-          c.u = b.u - a.u + flow_half_[0] * c.x, c.v = b.v - a.v + flow_half_[1] * c.y;
-          c.p = b.p - a.p + flow_now_[0] * c.x, c.q = b.q - a.q + flow_now_[1] * c.y;
+          c.u = b.u - a.u + flow_half_[0] * c.x + shear_half_ * c.y, c.v = b.v - a.v + flow_half_[1] * c.y;
+          c.p = b.p - a.p + flow_now_[0] * c.x + shear_now_ * c.y, c.q = b.q - a.q + flow_now_[1] * c.y;
           c.spin_i = a.w, c.spin_j = b.w;
           c.time_step = dt;
           Spring& spring = springs_[{i, j, s1, s2}];
@@ -184,10 +211,12 @@ void DiskReference::forces(double dt) {
           spring = {r.tangential, r.moment};
           a.fx -= r.fx, a.fy -= r.fy, a.torque += r.moment_i;
           b.fx += r.fx, b.fy += r.fy, b.torque += r.moment_j;
-          virial_x += r.fx * c.x, virial_y += r.fy * c.y;
+          virial_x += r.fx * c.x, virial_y += r.fy * c.y, virial_xy += r.fx * c.y;
           ledger_.sliding += r.sliding, ledger_.rolling += r.rolling;
         }
+      }
     }
+  shear_stress_ = (kinetic_xy + virial_xy) / (length_[0] * length_[1]);
   stress(virial_x, virial_y, kinetic_x, kinetic_y);
 }
 

@@ -57,6 +57,10 @@ class DiskReference {
   std::array<double, 2> length() const { return length_; }
   std::array<double, 2> strain_rate() const { return rate_; }
   std::array<double, 2> stress() const { return stress_; }
+  // Of a cell that shears: the tilt is never lowered, however far it goes.
+  double tilt() const { return tilt_; }
+  double shear_strain_rate() const { return shear_rate_; }
+  double shear_stress() const { return shear_stress_; }
   struct Spring {
     double tangential = 0, moment = 0;
   };
@@ -68,11 +72,13 @@ class DiskReference {
  private:
   void forces(double dt);
   void stress(double virial_x, double virial_y, double kinetic_x, double kinetic_y);
+  double limited(double rate, double reference) const;
 
   DiskLaw law_;
   CellControl<2> control_;
   double dt_ = 0, drag_ = 0;
   std::array<double, 2> length_{}, reference_{}, rate_{}, stress_{}, flow_half_{}, flow_now_{};
+  double tilt_ = 0, shear_rate_ = 0, shear_stress_ = 0, shear_half_ = 0, shear_now_ = 0;
   std::vector<DiskMoment> disks_;
   std::map<std::array<int, 4>, Spring> springs_;
   std::size_t interactions_ = 0;

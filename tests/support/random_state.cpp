@@ -49,7 +49,7 @@ std::vector<double> numbers(const T& x) {
 State<Disks> random_state(std::uint64_t seed, int grains, int links) {
   Draw d(seed);
   State<Disks> s;
-  if (d.coin() || links > 0) s.packing.cell = PeriodicCell<2>{{{d.positive(), d.positive()}}};
+  if (d.coin() || links > 0) s.packing.cell = PeriodicCell<2>{{{d.positive(), d.positive()}}, d.coin() ? d.real() : 0};
   Bodies<2>& b = s.packing.bodies;
   for (int k = 0; k < grains; ++k) {
     b.id.push_back(7 * k - 20);
@@ -71,7 +71,8 @@ State<Disks> random_state(std::uint64_t seed, int grains, int links) {
                     &law.rolling_friction, &law.rolling_stiffness, &law.attraction, &law.attraction_range})
     *x = d.positive();
   s.time = d.positive(), s.step = d.integer(0, 1 << 30), s.time_step = d.positive();
-  s.cell_motion = {d.vec(), d.vec(), d.vec()};
+  s.cell_motion = {d.vec(), d.vec(), d.vec(), d.real(), d.real(), d.real()};
+  if (d.coin()) s.imposed_stress.shear = d.real();
   for (auto& stress : s.imposed_stress)
     if (d.coin()) stress = d.real();
   if (d.coin())
@@ -81,6 +82,7 @@ State<Disks> random_state(std::uint64_t seed, int grains, int links) {
       s.memory.lists.outer_position.push_back(d.vec()), s.memory.lists.inner_position.push_back(d.vec());
     }
   s.memory.lists.outer_length = d.vec(), s.memory.lists.inner_length = d.vec();
+  s.memory.lists.outer_tilt = d.real(), s.memory.lists.inner_tilt = d.real();
   s.memory.lists.outer_skin = d.real(), s.memory.lists.inner_skin = d.real();
   s.memory.lists.outer_travel = d.real(), s.memory.lists.inner_travel = d.real();
   s.scene.stages.resize(static_cast<std::size_t>(d.integer(0, 3)));
@@ -113,6 +115,7 @@ void expect_equal(const State<Disks>& a, const State<Disks>& b) {
   ASSERT_EQ(a.packing.cell.has_value(), b.packing.cell.has_value());
   if (a.packing.cell) {
     EXPECT_SAME(packing.cell->length);
+    EXPECT_SAME(packing.cell->tilt);
   }
   EXPECT_EQ(a.packing.bodies.id, b.packing.bodies.id);
   EXPECT_SAME(packing.bodies.position);
@@ -149,6 +152,9 @@ void expect_equal(const State<Disks>& a, const State<Disks>& b) {
   EXPECT_EQ(a.step, b.step);
   EXPECT_SAME(time_step);
   EXPECT_SAME(cell_motion.reference_length);
+  EXPECT_SAME(cell_motion.shear_strain_rate);
+  EXPECT_SAME(cell_motion.shear_stress);
+  EXPECT_SAME(cell_motion.shear_strain);
   EXPECT_SAME(cell_motion.strain_rate);
   EXPECT_SAME(cell_motion.stress);
   EXPECT_EQ(a.imposed_stress, b.imposed_stress);
@@ -160,6 +166,8 @@ void expect_equal(const State<Disks>& a, const State<Disks>& b) {
   EXPECT_SAME(memory.lists.inner_position);
   EXPECT_SAME(memory.lists.outer_length);
   EXPECT_SAME(memory.lists.inner_length);
+  EXPECT_SAME(memory.lists.outer_tilt);
+  EXPECT_SAME(memory.lists.inner_tilt);
   EXPECT_SAME(memory.lists.outer_skin);
   EXPECT_SAME(memory.lists.inner_skin);
   EXPECT_SAME(memory.lists.outer_travel);
@@ -173,8 +181,11 @@ void expect_equal(const State<Disks>& a, const State<Disks>& b) {
   EXPECT_SAME(progress.unchanged_since);
   EXPECT_SAME(progress.start_stiffness);
   EXPECT_SAME(progress.start_stress);
+  EXPECT_SAME(progress.start_shear_stress);
   EXPECT_SAME(progress.ramp_stress);
   EXPECT_SAME(progress.ramp_rate);
+  EXPECT_SAME(progress.ramp_shear_stress);
+  EXPECT_SAME(progress.ramp_shear_rate);
   EXPECT_SAME(progress.carried_stress);
   EXPECT_SAME(progress.carried_at);
   EXPECT_SAME(progress.peak_stress);

@@ -61,11 +61,11 @@ struct Fixture<Disks> {
     return {name, random_state(r), {}};
   }
 
-  // Every law that a kernel exists for, in a fixed cell, in one that is compressed fast, without a cell and between
-  // smooth walls.
+  // Every law that a kernel exists for, in a fixed cell, in one that is compressed fast, in one that is sheared so fast
+  // that its tilt is lowered on the way, without a cell and between smooth walls.
   static std::vector<Variant<Disks>> variants(int count) {
     std::vector<Variant<Disks>> list;
-    for (const char* around : {"fixed cell", "free cell", "no cell", "smooth box", "smooth drum"})
+    for (const char* around : {"fixed cell", "free cell", "sheared cell", "no cell", "smooth box", "smooth drum"})
       for (const bool adhesion : {false, true})
         for (const char* axes : {"frictionless", "friction", "rolling", "undamped rolling"}) {
           const std::string law(axes), room(around);
@@ -86,9 +86,18 @@ struct Fixture<Disks> {
             v.control.inertia = 0.3 * oracle::total_mass(v.state);
             if (law == "rolling") ramped(v.control, v.state);  // and damped
           }
+          if (room == "sheared cell") {
+            v.control.stress[1] = 100, v.control.shear_rate = 5, v.control.max_strain_rate = 2;
+            v.control.inertia = 0.3 * oracle::total_mass(v.state);
+          }
           if (room == "no cell") v.state.packing.cell.reset(), v.state.cell_motion = {};
           list.push_back(std::move(v));
         }
+    Variant<Disks> unlike = list[6];
+    unlike.name += ", unlike densities";
+    for (std::size_t k = 0; k < unlike.state.packing.bodies.size(); k += 3)
+      unlike.state.packing.bodies.mass[k] *= 4, unlike.state.packing.bodies.inertia[k] *= 4;
+    list.push_back(std::move(unlike));
     return list;
   }
 
@@ -101,7 +110,10 @@ struct Fixture<Disks> {
   static int chunks(const State<Disks>& s) { return DiskEngine::Lists::chunk_count(s.packing.bodies.size()); }
   // Something of all that the variant is there for has happened.
   static bool is_lively(const Variant<Disks>& v, const State<Disks>& end) {
-    return !end.packing.links.empty() && (closed(v.state) || !end.packing.feet.empty());
+    const bool turned_back =
+        v.control.shear_rate == 0 ||
+        end.packing.cell->tilt < 0.9 * v.control.shear_rate * end.time * end.packing.cell->length[1];
+    return !end.packing.links.empty() && (closed(v.state) || !end.packing.feet.empty()) && turned_back;
   }
   static unsigned least_rebuilds(const State<Disks>&) { return 6; }  // of the inner lists, in 150 steps
   // No force from outside.

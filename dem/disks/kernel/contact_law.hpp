@@ -48,4 +48,12 @@ const KernelTable& scalar_kernels();
 const KernelTable& avx2_kernels();
 const KernelTable& avx512_kernels();
 
+// Of a cell that shears, by tally from stress on: kernels of their own, so that a rectangular cell pays nothing.
+using ShearKernelSet = std::array<PairForceKernel, 2>;
+using ShearKernelTable = std::array<ShearKernelSet, Supported::compositions.size()>;
+
+const ShearKernelTable& scalar_shear_kernels();
+const ShearKernelTable& avx2_shear_kernels();
+const ShearKernelTable& avx512_shear_kernels();
+
 }  // namespace isostat::kernel

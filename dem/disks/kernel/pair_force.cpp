@@ -26,13 +26,17 @@ std::string supported_compositions() {
   return list;
 }
 
-PairForceKernel select_kernel(const DiskLaw& p, Tally tally, Isa isa) {
+PairForceKernel select_kernel(const DiskLaw& p, Tally tally, Isa isa, Flow flow) {
   const LawComposition wanted = composition(p);
   const kernel::KernelTable& table = isa == Isa::avx512 ? kernel::avx512_kernels()
                                      : isa == Isa::avx2 ? kernel::avx2_kernels()
                                                         : kernel::scalar_kernels();
+  const kernel::ShearKernelTable& sheared = isa == Isa::avx512 ? kernel::avx512_shear_kernels()
+                                            : isa == Isa::avx2 ? kernel::avx2_shear_kernels()
+                                                               : kernel::scalar_shear_kernels();
+  const auto t = static_cast<std::size_t>(tally);
   for (std::size_t k = 0; k < table.size(); ++k)
-    if (kernel::Supported::compositions[k] == wanted) return table[k][static_cast<std::size_t>(tally)];
+    if (kernel::Supported::compositions[k] == wanted) return flow == Flow::shear ? sheared[k].at(t - 1) : table[k][t];
   throw InputError("scene", 0, "law", words(wanted), "not among the supported laws:\n" + supported_compositions());
 }
 

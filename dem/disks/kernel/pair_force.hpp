@@ -14,6 +14,10 @@ namespace isostat {
 // What a kernel sums up beside the forces. A fixed cell measures no stress; the energy ledger is paid for on request.
 enum class Tally { nothing, stress, energy };
 
+// How the cell carries its bodies: along its edges, each by itself, or sheared as well. A cell that does not move, and
+// measures nothing, is of the first kind.
+enum class Flow { stretch, shear };
+
 // Pairs in structure-of-arrays form, in batches of kPairBatch (dem/solver/neighbours.hpp); the rest of a group is
 // padded with a pair of two far bodies.
 struct PairArrays {
@@ -37,15 +41,18 @@ struct PairForceInput {
   double flow_half[2] = {0, 0};  // Ldot_a / L_a at the half step [1/T0]; the affine part of a velocity is flow * r
   double flow_now[2] = {0, 0};   // the same, predicted to the full step
   double offset_x[16] = {}, offset_y[16] = {};  // [a] of the image by its code (s1 + 1) + 3 (s2 + 1), 9 of them in use
+  double shear_half = 0, shear_now = 0;         // [1/T0] d(v_x)/dy of the flow; of a cell that shears
 };
 
 struct PairForceTally {
   double virial[2] = {0, 0};  // sum of F_a r_a over pairs, repulsion positive [F0 a]
   double sliding = 0;         // energy dissipated in this step [F0 a]
   double rolling = 0;
+  double shear_virial = 0;  // sum of F_1 r_2, of a cell that shears
   PairForceTally& operator+=(const PairForceTally& o) {
     virial[0] += o.virial[0], virial[1] += o.virial[1];
     sliding += o.sliding, rolling += o.rolling;
+    shear_virial += o.shear_virial;
     return *this;
   }
 };
@@ -60,7 +67,7 @@ struct LawComposition {
 LawComposition composition(const DiskLaw& law);
 
 // The kernel for a law; throws InputError with the list of supported compositions if there is none.
-PairForceKernel select_kernel(const DiskLaw& law, Tally tally, Isa isa);
+PairForceKernel select_kernel(const DiskLaw& law, Tally tally, Isa isa, Flow flow = Flow::stretch);
 std::string supported_compositions();  // one a line
 
 }  // namespace isostat

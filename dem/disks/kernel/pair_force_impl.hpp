@@ -14,13 +14,14 @@ ISOSTAT_INLINE V load(const double* p) {
   return V(p, stdx::element_aligned);
 }
 
-template <class V, class Law, Tally kTally, bool kImages>
+template <class V, class Law, Tally kTally, bool kImages, Flow kFlow>
 PairForceTally pair_forces(const PairForceInput& input) {
   const PairForceInput in = input;  // a copy that no store can alias: its fields stay in registers
   const DiskLaw& law = in.law;
   const V dt(in.time_step);
   const double braking = crossing_braking(law, in.time_step);
   V virial_x(0.0), virial_y(0.0), sliding(0.0), rolling(0.0);
+  [[maybe_unused]] V virial_shear(0.0);
 
   // The loads of a batch are added while the next one is under way: a batch is a long chain of dependent operations
   // that ends with as many instructions as it began with, and the processor looks ahead less far than two batches.
@@ -39,6 +40,10 @@ PairForceTally pair_forces(const PairForceInput& input) {
       d.v = mul_add<V>(V(in.flow_half[1]), d.y, d.v);
       d.p = mul_add<V>(V(in.flow_now[0]), d.x, d.p);
       d.q = mul_add<V>(V(in.flow_now[1]), d.y, d.q);
+    }
+    if constexpr (kFlow == Flow::shear) {
+      d.u = mul_add<V>(V(in.shear_half), d.y, d.u);
+      d.p = mul_add<V>(V(in.shear_now), d.y, d.p);
     }
     const PairFrame<V> f = pair_frame<V>(d.x, d.y, load<V>(in.pairs.radius_sum + k));
     const auto contact = f.gap < V(0.0);
@@ -87,6 +92,7 @@ PairForceTally pair_forces(const PairForceInput& input) {
     if constexpr (kTally != Tally::nothing) {
       virial_x = mul_add<V>(fx, d.x, virial_x);
       virial_y = mul_add<V>(fy, d.y, virial_y);
+      if constexpr (kFlow == Flow::shear) virial_shear = mul_add<V>(fx, d.y, virial_shear);
     }
     late = k, late_x = fx, late_y = fy, late_a = -(f.lever_ratio * tangential), late_b = moment;
   }
@@ -95,12 +101,13 @@ PairForceTally pair_forces(const PairForceInput& input) {
   PairForceTally sum;
   if constexpr (kTally != Tally::nothing) sum.virial[0] = reduce(virial_x), sum.virial[1] = reduce(virial_y);
   if constexpr (kTally == Tally::energy) sum.sliding = reduce(sliding), sum.rolling = reduce(rolling);
+  if constexpr (kFlow == Flow::shear) sum.shear_virial = reduce(virial_shear);
   return sum;
 }
 
-template <class V, class Law, Tally kTally>
+template <class V, class Law, Tally kTally, Flow kFlow = Flow::stretch>
 PairForceTally pair_force_kernel(const PairForceInput& in) {
-  return in.images ? pair_forces<V, Law, kTally, true>(in) : pair_forces<V, Law, kTally, false>(in);
+  return in.images ? pair_forces<V, Law, kTally, true, kFlow>(in) : pair_forces<V, Law, kTally, false, kFlow>(in);
 }
 
 template <class V, class Law>
@@ -108,9 +115,17 @@ inline constexpr KernelSet kernel_set = {&pair_force_kernel<V, Law, Tally::nothi
                                          &pair_force_kernel<V, Law, Tally::stress>,
                                          &pair_force_kernel<V, Law, Tally::energy>};
 
+template <class V, class Law>
+inline constexpr ShearKernelSet shear_kernel_set = {&pair_force_kernel<V, Law, Tally::stress, Flow::shear>,
+                                                    &pair_force_kernel<V, Law, Tally::energy, Flow::shear>};
+
 template <class V, class... Law>
 constexpr std::array<KernelSet, sizeof...(Law)> kernel_table(Catalogue<Law...>) {
   return {kernel_set<V, Law>...};
+}
+template <class V, class... Law>
+constexpr std::array<ShearKernelSet, sizeof...(Law)> shear_kernel_table(Catalogue<Law...>) {
+  return {shear_kernel_set<V, Law>...};
 }
 
 }  // namespace isostat::kernel

@@ -31,11 +31,19 @@ State<Disks> stretched_state(double friction, std::uint64_t seed) {
   solver.snapshot(s);
   return s;
 }
-FinishingRequest<2> request(bool free_cell) {
+// The cell keeps its shape, or its edges are free, or its angle as well.
+enum class CellIs { fixed, free, shearing };
+FinishingRequest<2> request(CellIs cell) {
   FinishingRequest<2> q;
-  if (free_cell) q.stress = {3.0, 5.0};
+  if (cell != CellIs::fixed) q.stress = {3.0, 5.0};
+  if (cell == CellIs::shearing) q.stress.shear = -2.0;
   q.cell_inertia = 7;
   return q;
+}
+// The same packing in a cell whose second edge ends two cells further on.
+void tilt(State<Disks>& s) {
+  s.packing.cell->tilt = 2 * s.packing.cell->length[0];
+  for (Link<2>& l : s.packing.links) l.shift[0] -= 2 * l.shift[1];
 }
 Vector random_step(std::size_t size, double scale, std::uint64_t seed) {
   Random random(seed);
@@ -51,7 +59,7 @@ double length(const Vector& v) {
 
 TEST(SettlingNetwork, ForcesAreThoseOfTheCertificate) {
   const State<Disks> s = stretched_state(0.3, 4);
-  SettlingNetwork network(s, request(true));
+  SettlingNetwork network(s, request(CellIs::free));
   network.forces(Vector(network.size(), 0.0));
   const SettlingNetwork::Balance b = network.balance();
   State<Disks> still = s;
@@ -64,11 +72,37 @@ TEST(SettlingNetwork, ForcesAreThoseOfTheCertificate) {
   EXPECT_NEAR(b.stress, std::max(std::abs(stress.xx - 3), std::abs(stress.yy - 5)), 1e-10 * std::abs(stress.yy));
 }
 
+// Of a tilted cell as well, whichever of the equivalent tilts describes it.
+TEST(SettlingNetwork, KnowsShearStressAndTilt) {
+  State<Disks> s = stretched_state(0.3, 4);
+  SettlingNetwork upright(s, request(CellIs::shearing));
+  const Vector forces = upright.forces(Vector(upright.size(), 0.0));
+  State<Disks> still = s;
+  for (Vec2& v : still.packing.bodies.velocity) v = {};
+  const StressTensor stress = measured_stress(still.packing);
+  const double area = upright.area();
+  EXPECT_NEAR(forces.back(), (-2.0 - stress.xy) * area / std::sqrt(area), 1e-9 * std::abs(stress.yy) * std::sqrt(area));
+  tilt(s);
+  SettlingNetwork tilted(s, request(CellIs::shearing));
+  const Vector same = tilted.forces(Vector(tilted.size(), 0.0));
+  Vector step = random_step(tilted.size(), 2e-4, 3);
+  const Vector there = tilted.forces(step), here = upright.forces(step);
+  for (std::size_t k = 0; k < forces.size(); ++k) {
+    EXPECT_NEAR(same[k], forces[k], 1e-10 * length(forces));
+    EXPECT_NEAR(there[k], here[k], 1e-10 * length(here));
+  }
+  tilted.accept(step), upright.accept(step);
+  const Vector after = tilted.forces(), before = upright.forces();
+  for (std::size_t k = 0; k < after.size(); ++k) EXPECT_NEAR(after[k], before[k], 1e-10 * length(before));
+}
+
 // Central differences about a finite trial step, with contacts that slide and yield and a cell that shrinks.
 TEST(SettlingNetwork, TheTangentIsTheDerivativeOfTheForces) {
   for (const double friction : {0.02, 0.3, 5.0})
-    for (const bool free_cell : {false, true}) {
-      SettlingNetwork network(stretched_state(friction, 5), request(free_cell));
+    for (const CellIs cell : {CellIs::fixed, CellIs::free, CellIs::shearing}) {
+      State<Disks> s = stretched_state(friction, 5);
+      if (cell == CellIs::shearing) tilt(s);
+      SettlingNetwork network(s, request(cell));
       const Vector base = random_step(network.size(), 2e-4, 6), direction = random_step(network.size(), 1, 7);
       network.forces(base);
       const SettlingNetwork::Balance status = network.balance();
@@ -86,13 +120,13 @@ TEST(SettlingNetwork, TheTangentIsTheDerivativeOfTheForces) {
       const Vector up = network.forces(plus), down = network.forces(minus);
       Vector error(base.size());
       for (std::size_t k = 0; k < base.size(); ++k) error[k] = exact[k] + (up[k] - down[k]) / (2 * h);
-      EXPECT_LT(length(error), 1e-6 * length(exact)) << "friction " << friction << " free cell " << free_cell;
+      EXPECT_LT(length(error), 1e-6 * length(exact)) << "friction " << friction << " cell " << static_cast<int>(cell);
     }
 }
 
 // Without yielding, in a fixed cell, the assembled matrix is the symmetric part: (x.Ky + y.Kx)/2 = x.Sy.
 TEST(SettlingNetwork, TheAssembledMatrixIsTheSymmetricPart) {
-  SettlingNetwork network(stretched_state(5.0, 8), request(false));
+  SettlingNetwork network(stretched_state(5.0, 8), request(CellIs::fixed));
   network.forces(random_step(network.size(), 2e-4, 9));
   ASSERT_EQ(network.balance().sliding, 0);
   const double shift = 11;
@@ -111,11 +145,11 @@ TEST(SettlingNetwork, TheAssembledMatrixIsTheSymmetricPart) {
 
 // With the cell free, what is left out of the strains' rows is of the order of the stress, not of the stiffness.
 TEST(SettlingNetwork, TheAssembledMatrixKnowsTheCell) {
-  SettlingNetwork network(stretched_state(5.0, 8), request(true));
+  SettlingNetwork network(stretched_state(5.0, 8), request(CellIs::shearing));
   network.forces(Vector(network.size(), 0.0));
   const SymmetricMatrix& matrix = network.shifted_stiffness(0);
   Vector strain(network.size(), 0.0);
-  strain[network.size() - 2] = 1, strain[network.size() - 1] = -0.5;
+  strain[network.size() - 3] = 1, strain[network.size() - 2] = -0.5, strain[network.size() - 1] = 0.7;
   const Vector exact = network.stiffness_times(strain), assembled = matrix.multiply(strain);
   Vector error = exact;
   for (std::size_t k = 0; k < error.size(); ++k) error[k] -= assembled[k];

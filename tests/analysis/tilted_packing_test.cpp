@@ -1,0 +1,163 @@
+// A packing in a tilted cell, against the same packing described upright: cells whose tilts differ by L1 are the same,
+// and a tilt of L1/2 is undone by an upright cell of two copies.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "analysis/report.hpp"
+#include "analysis/rigidity/exact_rank.hpp"
+#include "analysis/stiffness/moduli.hpp"
+#include "dem/disks/certificate.hpp"
+#include "dem/disks/engine.hpp"
+#include "dem/state/balance.hpp"
+#include "dem/state/link_ends.hpp"
+#include "dem/state/touching.hpp"
+#include "tests/support/disk_states.hpp"
+
+namespace isostat {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Sheared for a while: contacts with stretched springs in a cell that leans.
+AnalysisInput sheared_packing() {
+  oracle::RandomDisks r;
+  r.count = 60, r.law = oracle::soft_law(), r.squeeze = 0.85, r.speed = 0.2;
+  r.law.attraction = 0;
+  AnalysisInput input;
+  input.path = "test", input.links_given = true;
+  State<Disks>& s = input.state;
+  s = oracle::random_state(r);
+  CellControl<2> control;
+  control.shear_rate = 1;
+  Solver solver(s, control);
+  solver.set_drag(5);
+  solver.run(160);
+  solver.snapshot(s);
+  EXPECT_GT(s.packing.cell->tilt, 0.2 * s.packing.cell->length[1]);
+  EXPECT_GT(s.packing.links.size(), 60u);
+  s.memory = {};
+  return input;
+}
+
+AnalysisInput described_by(AnalysisInput input, int turns) {
+  Packing<2>& p = input.state.packing;
+  p.cell->tilt += turns * p.cell->length[0];
+  for (Link<2>& l : p.links) l.shift[0] -= turns * l.shift[1];
+  return input;
+}
+
+// Tilt L1/2, no matter what the links become.
+Packing<2> half_tilted(Packing<2> p) {
+  p.cell->tilt = 0.5 * p.cell->length[0];
+  p.links = touching_links(p, 0.0);
+  std::erase_if(p.links, [](const Link<2>& l) { return l.i == l.j; });
+  return p;
+}
+
+// The upright cell of two copies: the second one is the image (0, 1).
+Packing<2> two_copies(const Packing<2>& p) {
+  Packing<2> out;
+  const auto n = static_cast<std::int32_t>(p.bodies.size());
+  out.cell = PeriodicCell<2>{{{p.cell->length[0], 2 * p.cell->length[1]}}};
+  out.bodies.resize(2 * p.bodies.size());
+  for (std::size_t k = 0; k < out.bodies.size(); ++k) {
+    const std::size_t of = k % p.bodies.size();
+    out.bodies.id[k] = static_cast<std::int64_t>(k);
+    out.bodies.position[k] = p.bodies.position[of] + p.cell->offset({0, k == of ? 0 : 1});
+    out.bodies.radius[k] = p.bodies.radius[of], out.bodies.mass[k] = 1, out.bodies.inertia[k] = 1;
+  }
+  for (const Link<2>& l : p.links)
+    for (const int copy : {0, 1}) {
+      Link<2> twin = l;
+      const int row = copy + l.shift[1], up = row >= 0 ? row / 2 : -((1 - row) / 2);  // 2 (tilt, L2) = (L1, 2 L2)
+      twin.i = l.i + copy * n, twin.j = l.j + (row - 2 * up) * n;
+      twin.shift = {l.shift[0] + up, up};
+      out.links.push_back(twin);
+    }
+  return out;
+}
+
+// Numbers of two reports, in order; lists are compared as they stand.
+void expect_near(const Json& a, const Json& b, double tolerance, const std::string& where) {
+  if (a.is_structured()) {
+    ASSERT_EQ(a.size(), b.size()) << where;
+    for (auto at = a.items().begin(), other = b.items().begin(); at != a.items().end(); ++at, ++other)
+      expect_near(at.value(), other.value(), tolerance, where + "." + at.key());
+  } else if (a.is_number()) {
+    ASSERT_TRUE(b.is_number()) << where;
+    EXPECT_NEAR(a.get<double>(), b.get<double>(), tolerance * (1 + std::abs(a.get<double>()))) << where;
+  } else {
+    EXPECT_EQ(a, b) << where;
+  }
+}
+
+TEST(TiltedPacking, EverySectionSaysTheSameOfEveryEquivalentTilt) {
+  const AnalysisInput input = sheared_packing();
+  const std::vector<std::string> only{"counts",    "equilibrium", "stress", "forces",     "percolation", "rigidity",
+                                      "stiffness", "moduli",      "pores",  "scattering", "dacf"};
+  AnalysisOptions options;
+  options.k_max = 20;
+  Json reports[3];
+  for (const int turns : {0, 1, -2}) {
+    Json report = analyze(described_by(input, turns), options, only);
+    Json& pores = report["pores"]["list"];  // in the order of their size: places are those of another cell
+    for (Json& pore : pores) pore.erase("x"), pore.erase("y"), pore.erase("along");
+    std::sort(pores.begin(), pores.end(),
+              [](const Json& a, const Json& b) { return a.value("area", 1e9) < b.value("area", 1e9); });
+    report["percolation"].erase("direction");
+    for (const char* curve : {"scattering", "dacf"})  // fits amplify the last digits
+      for (const char* fit : {"fit", "power", "mass_radius"}) report[curve].erase(fit);
+    reports[turns < 0 ? 2 : turns] = std::move(report);
+  }
+  for (int k = 1; k < 3; ++k)
+    for (const std::string& section : only) {
+      const bool transformed = section == "scattering" || section == "dacf";  // on another grid
+      expect_near(reports[0].at(section), reports[k].at(section), transformed ? 1e-5 : 1e-7, section);
+    }
+}
+
+TEST(TiltedPacking, ContactsAreThoseOfTheCellOfTwoCopies) {
+  const Packing<2> p = half_tilted(sheared_packing().state.packing), copies = two_copies(p);
+  ASSERT_GT(p.links.size(), 60u);
+  const std::vector<Link<2>> expected = touching_links(copies, 0.0);
+  EXPECT_EQ(expected.size(), 2 * p.links.size());
+  for (std::size_t l = 0; l < copies.links.size(); ++l) {
+    const LinkEnds<2> twin = ends(copies, copies.links[l]), own = ends(p, p.links[l / 2]);
+    EXPECT_LT(norm(twin.branch - own.branch), 1e-12);
+  }
+  // Rows of G see branch vectors alone: the same elastic moduli, and as many constraints.
+  const Moduli one = elastic_moduli(p, NetworkLaw::rolling, sheared_packing().state.law),
+               two = elastic_moduli(copies, NetworkLaw::rolling, sheared_packing().state.law);
+  for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t b = 0; b < 3; ++b) EXPECT_NEAR(one[a][b], two[a][b], 1e-8 * std::abs(one[0][0]));
+  EXPECT_EQ(exact_rank(p, NetworkLaw::rolling, true).dofs, 3 * static_cast<std::int64_t>(p.bodies.size()) + 2);
+}
+
+TEST(TiltedPacking, PrincipalStressesAndFabric) {
+  const AnalysisInput input = sheared_packing();
+  const Json stress = analyze(input, {}, {"stress"}).at("stress");
+  const auto at = [&](const char* key, int row, int column) { return stress.at(key)[row][column].get<double>(); };
+  const double mean = 0.5 * (at("tensor", 0, 1) + at("tensor", 1, 0));
+  for (int k = 0; k < 2; ++k) {  // S d = s d
+    const double value = stress.at("principal")[k].get<double>(), x = at("directions", k, 0),
+                 y = at("directions", k, 1);
+    EXPECT_NEAR(x * x + y * y, 1, 1e-14);
+    EXPECT_NEAR(at("tensor", 0, 0) * x + mean * y, value * x, 1e-12 * std::abs(value));
+    EXPECT_NEAR(mean * x + at("tensor", 1, 1) * y, value * y, 1e-12 * std::abs(value));
+  }
+  const double s1 = stress["principal"][0], s2 = stress["principal"][1];
+  EXPECT_GT(s1, s2);
+  EXPECT_DOUBLE_EQ(stress["deviator"].get<double>(), 0.5 * (s1 - s2));
+  // Shear to the right pushes along the falling diagonal: sigma_12 < 0, and contacts are gained there.
+  EXPECT_LT(mean, 0);
+  EXPECT_LT(at("directions", 0, 0) * at("directions", 0, 1), 0);
+  const Json& fabric = stress["fabric"];
+  EXPECT_NEAR(fabric["tensor"][0][0].get<double>() + fabric["tensor"][1][1].get<double>(), 1, 1e-14);
+  EXPECT_LT(fabric["tensor"][0][1].get<double>(), 0);
+}
+
+}  // namespace
+}  // namespace isostat
