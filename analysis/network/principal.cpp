@@ -31,8 +31,8 @@ void add_principal(nlohmann::ordered_json& json, const Tensor<D>& tensor) {
   json["deviator"] = 0.5 * (axes.value[0] - axes.value[D - 1]);
 }
 
-template PrincipalAxes<2> principal_axes(const Tensor<2>&);
-template PrincipalAxes<3> principal_axes(const Tensor<3>&);
+template PrincipalAxes<2> principal_axes<2>(const Tensor<2>&);
+template PrincipalAxes<3> principal_axes<3>(const Tensor<3>&);
 template void add_principal<2>(nlohmann::ordered_json&, const Tensor<2>&);
 template void add_principal<3>(nlohmann::ordered_json&, const Tensor<3>&);
 

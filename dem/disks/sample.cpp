@@ -143,108 +143,107 @@ void set_time_step(State<Disks>& state, const std::string& origin) {
                          ", or without this key as the grains bear");
   for (const SceneConflict& c : wall_motion_conflicts(scene, state.time_step, smallest))
     throw InputError("scene", 0, c.key, c.value, c.rule);
-  // The cell in its shape nearest to a rectangle: as it would be lowered to when it shears.
-  void lower_tilt(Packing<2> & packing) {
-    if (!packing.cell) return;
-    const int turns = packing.cell->turns();
-    packing.cell->tilt -= turns * packing.cell->length[0];
-    for (Link<2>& l : packing.links) l.shift[0] += turns * l.shift[1];
+}
+
+// The cell in its shape nearest to a rectangle: as it would be lowered to when it shears.
+void lower_tilt(Packing<2>& packing) {
+  if (!packing.cell) return;
+  const int turns = packing.cell->turns();
+  packing.cell->tilt -= turns * packing.cell->length[0];
+  for (Link<2>& l : packing.links) l.shift[0] += turns * l.shift[1];
+}
+
+// grains.file: bodies, cell and spring histories of a packing under the scene's law, at time 0.
+State<Disks> state_from_file(const Scene& scene, std::uint64_t seed) {
+  const std::string& path = scene.grains.file;
+  PackingFile file = read_grains_file(path, scene.grains.box);
+  if (file.packing_3d) throw InputError(path, 0, "grains.file", path, "a packing of disks is wanted; this one is 3D");
+  if (file.triangles)
+    throw InputError(path, 0, "grains.file", path, "a packing of disks is wanted; this one is of triangles");
+  Packing<2>& packing = file.state.packing;
+  if (!packing.cell) refuse_without_cell(scene, path);
+  if (!packing.beams.empty())
+    throw InputError(path, 0, "grains.file", path, "it has beams, which no run of disks can march yet");
+  if (packing.bodies.size() == 0) throw InputError(path, 0, "grains.file", path, "it holds no grain");
+  State<Disks> state = without_bodies(scene, seed);
+  state.packing = std::move(packing);
+  const bool weighed = file.densities_given || densities_differ(state.packing.bodies, [](std::size_t) { return true; });
+  lower_tilt(state.packing);
+  contain(state, file.state, path);
+  if (!weighed) set_disk_inertia(state.packing.bodies);
+  if (!file.links_given) state.packing.links.clear();
+  const Bodies<2>& b = state.packing.bodies;
+  for (const Link<2>& l : touching_links(state.packing, 0.0)) {
+    const auto i = static_cast<std::size_t>(l.i), j = static_cast<std::size_t>(l.j);
+    const double sum = b.radius[i] + b.radius[j];
+    if (l.gap < -kMostOverlapAtStart * sum)
+      throw InputError(path, 0, "grains.file", path,
+                       "grains " + std::to_string(b.id[i]) + " and " + std::to_string(b.id[j]) + " overlap by " +
+                           std::to_string(-l.gap) + " a; at most a tenth of the sum of radii is allowed");
   }
+  set_time_step(state, path);
+  if (state.packing.cell) state.cell_motion.reference_length = state.packing.cell->length;
+  return state;
+}
 
-  // grains.file: bodies, cell and spring histories of a packing under the scene's law, at time 0.
-  State<Disks> state_from_file(const Scene& scene, std::uint64_t seed) {
-    const std::string& path = scene.grains.file;
-    PackingFile file = read_grains_file(path, scene.grains.box);
-    if (file.packing_3d) throw InputError(path, 0, "grains.file", path, "a packing of disks is wanted; this one is 3D");
-    if (file.triangles)
-      throw InputError(path, 0, "grains.file", path, "a packing of disks is wanted; this one is of triangles");
-    Packing<2>& packing = file.state.packing;
-    if (!packing.cell) refuse_without_cell(scene, path);
-    if (!packing.beams.empty())
-      throw InputError(path, 0, "grains.file", path, "it has beams, which no run of disks can march yet");
-    if (packing.bodies.size() == 0) throw InputError(path, 0, "grains.file", path, "it holds no grain");
-    State<Disks> state = without_bodies(scene, seed);
-    state.packing = std::move(packing);
-    const bool weighed =
-        file.densities_given || densities_differ(state.packing.bodies, [](std::size_t) { return true; });
-    lower_tilt(state.packing);
-    contain(state, file.state, path);
-    if (!weighed) set_disk_inertia(state.packing.bodies);
-    if (!file.links_given) state.packing.links.clear();
-    const Bodies<2>& b = state.packing.bodies;
-    for (const Link<2>& l : touching_links(state.packing, 0.0)) {
-      const auto i = static_cast<std::size_t>(l.i), j = static_cast<std::size_t>(l.j);
-      const double sum = b.radius[i] + b.radius[j];
-      if (l.gap < -kMostOverlapAtStart * sum)
-        throw InputError(path, 0, "grains.file", path,
-                         "grains " + std::to_string(b.id[i]) + " and " + std::to_string(b.id[j]) + " overlap by " +
-                             std::to_string(-l.gap) + " a; at most a tenth of the sum of radii is allowed");
-    }
-    set_time_step(state, path);
-    if (state.packing.cell) state.cell_motion.reference_length = state.packing.cell->length;
-    return state;
+// Where grains are put in: the periodic cell, or the lower part of a container.
+struct Room {
+  Frame<2> frame;
+  const ContainerScene* container = nullptr;
+  bool holds(const Vec2& r, double radius) const {
+    return !container || (isostat::holds(*container, r, radius) && r[1] + radius <= frame.origin[1] + frame.length[1]);
   }
-
-  // Where grains are put in: the periodic cell, or the lower part of a container.
-  struct Room {
-    Frame<2> frame;
-    const ContainerScene* container = nullptr;
-    bool holds(const Vec2& r, double radius) const {
-      return !container ||
-             (isostat::holds(*container, r, radius) && r[1] + radius <= frame.origin[1] + frame.length[1]);
-    }
-    Vec2 random_point(Random& random) const {
-      Vec2 r;
-      for (int a = 0; a < 2; ++a) r[a] = random.uniform() * frame.length[a] + frame.origin[a];
-      return r;
-    }
-  };
-
-  constexpr double kFlight = 0.5;  // [diameter] between two disks that are to collide
-
-  // The left disk is higher and flies along x.
-  State<Disks> about_to_collide(const Scene& scene, std::uint64_t seed) {
-    const GrainsScene& g = scene.grains;
-    State<Disks> state = without_bodies(scene, seed);
-    Bodies<2>& b = state.packing.bodies;
-    b.resize(2);
-    b.id = {0, 1};
-    b.radius.assign(2, 0.5 * g.diameter_max);
-    b.position[0] = {{-(1 + kFlight) * g.diameter_max, g.offset * g.diameter_max}};
-    b.velocity[0] = {{g.speed, 0}};
-    set_disk_inertia(b);
-    state.time_step = time_step(scene, state.law.normal_stiffness, state.packing);
-    return state;
+  Vec2 random_point(Random& random) const {
+    Vec2 r;
+    for (int a = 0; a < 2; ++a) r[a] = random.uniform() * frame.length[a] + frame.origin[a];
+    return r;
   }
+};
 
-  [[noreturn]] void refuse_density(const GrainsScene& g) {
-    if (g.solid_fraction > kDensestGas)
-      throw InputError("scene", 0, "grains.solid_fraction", real_text(g.solid_fraction),
-                       "the disks jam before; lower it (those of like sizes jam at about 0.84, and sooner if "
-                       "law.attraction_range keeps them apart)");
+constexpr double kFlight = 0.5;  // [diameter] between two disks that are to collide
+
+// The left disk is higher and flies along x.
+State<Disks> about_to_collide(const Scene& scene, std::uint64_t seed) {
+  const GrainsScene& g = scene.grains;
+  State<Disks> state = without_bodies(scene, seed);
+  Bodies<2>& b = state.packing.bodies;
+  b.resize(2);
+  b.id = {0, 1};
+  b.radius.assign(2, 0.5 * g.diameter_max);
+  b.position[0] = {{-(1 + kFlight) * g.diameter_max, g.offset * g.diameter_max}};
+  b.velocity[0] = {{g.speed, 0}};
+  set_disk_inertia(b);
+  state.time_step = time_step(scene, state.law.normal_stiffness, state.packing);
+  return state;
+}
+
+[[noreturn]] void refuse_density(const GrainsScene& g) {
+  if (g.solid_fraction > kDensestGas)
     throw InputError("scene", 0, "grains.solid_fraction", real_text(g.solid_fraction),
-                     "no room was found for disks that keep law.attraction_range apart; lower it (0.5 is safe)");
-  }
+                     "the disks jam before; lower it (those of like sizes jam at about 0.84, and sooner if "
+                     "law.attraction_range keeps them apart)");
+  throw InputError("scene", 0, "grains.solid_fraction", real_text(g.solid_fraction),
+                   "no room was found for disks that keep law.attraction_range apart; lower it (0.5 is safe)");
+}
 
-  constexpr double kRoomAtLeast = 8;  // [largest diameter^2] of a container: for a few grains
+constexpr double kRoomAtLeast = 8;  // [largest diameter^2] of a container: for a few grains
 
-  // area [a^2] of the room.
-  Room room_of(const Scene& scene, double area) {
-    const ContainerScene& c = scene.container;
-    if (c.shape == ContainerShape::none) {
-      const double width = std::sqrt(area * scene.cell.aspect);
-      return {{{}, {{width, area / width}}, true}};
-    }
-    const double bottom = region_bottom(c), has = area_below(c, region_top(c));
-    if (area > has)
-      throw InputError(
-          "scene", 0, "container", "",
-          "too small for the grains: at grains.solid_fraction = " + real_text(scene.grains.solid_fraction) +
-              " they take an area of " + real_text(area) + " a^2, it has " + real_text(has));
-    const double half = half_width(c), diameter = scene.grains.diameter_max;
-    const double top = height_of_area(c, std::max(area, kRoomAtLeast * diameter * diameter));
-    return {{{{-half, bottom}}, {{2 * half, top - bottom}}, false}, &scene.container};
+// area [a^2] of the room.
+Room room_of(const Scene& scene, double area) {
+  const ContainerScene& c = scene.container;
+  if (c.shape == ContainerShape::none) {
+    const double width = std::sqrt(area * scene.cell.aspect);
+    return {{{}, {{width, area / width}}, true}};
   }
+  const double bottom = region_bottom(c), has = area_below(c, region_top(c));
+  if (area > has)
+    throw InputError("scene", 0, "container", "",
+                     "too small for the grains: at grains.solid_fraction = " + real_text(scene.grains.solid_fraction) +
+                         " they take an area of " + real_text(area) + " a^2, it has " + real_text(has));
+  const double half = half_width(c), diameter = scene.grains.diameter_max;
+  const double top = height_of_area(c, std::max(area, kRoomAtLeast * diameter * diameter));
+  return {{{{-half, bottom}}, {{2 * half, top - bottom}}, false}, &scene.container};
+}
 
 }  // namespace
 

@@ -24,8 +24,11 @@ void put_in_cell(Packing<D>& packing, bool contained, const std::string& path, c
 
 PackingFile read_grains_file(const std::string& path, const std::vector<double>& box) {
   if (box.empty()) return read_packing(path);
-  if (sniff_packing_format(path) != PackingFormat::state)
-    return read_packing(path, {.gap_tolerance = {}, .box = box, .box_name = "grains.box"});
+  if (sniff_packing_format(path) != PackingFormat::state) {
+    PackingReading reading;
+    reading.box = box, reading.box_name = "grains.box";
+    return read_packing(path, reading);
+  }
   PackingFile file = read_packing(path);
   if (file.packing_3d)
     put_in_cell(*file.packing_3d, file.spheres && stands_in_container(*file.spheres), path, box);

@@ -27,8 +27,8 @@ std::vector<Link<D>> touching_links(const Packing<D>& packing, double gap_tolera
   std::vector<ImageShift<D>> home(bodies.size(), ImageShift<D>{});
   if (packing.cell) {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-      for (int k = 0; k < D; ++k)
-        home[i][static_cast<std::size_t>(k)] = static_cast<int>(std::floor(wrapped[i][k] / packing.cell->length[k]));
+      const Vec<D> fractions = packing.cell->fractions(wrapped[i]);
+      for (int k = 0; k < D; ++k) home[i][static_cast<std::size_t>(k)] = static_cast<int>(std::floor(fractions[k]));
       wrapped[i] -= packing.cell->offset(home[i]);
     }
   }
