@@ -84,7 +84,7 @@ double inertial_number(const State<System>& s) {
 // By how much the stress of an edge is out of the range between what was imposed when the stage began and what is
 // imposed now, as a part of the larger of the two, or of kLeastStress where both are small.
 inline constexpr double kLeastStress = 0.01;  // [F1/a]
-inline constexpr double kStressHeld = 0.5;    // a larger error is told
+inline constexpr double kStressHeld = 1;      // a larger error is told
 template <class System>
 double stress_error(const State<System>& s) {
   double largest = 0;
