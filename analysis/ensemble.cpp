@@ -208,6 +208,9 @@ nlohmann::ordered_json merge_reports(const std::vector<nlohmann::ordered_json>& 
   }
   Json json = merge_objects(values);
   json["inputs"] = inputs;
+  json.erase("warnings");
+  for (const Json& r : reports)
+    for (const Json& warning : r.value("warnings", Json::array())) json["warnings"].push_back(warning);
   for (const Section& section : sections()) {
     const std::string name(section.name);
     if (!json.contains(name)) continue;

@@ -24,14 +24,17 @@ constexpr std::string_view name_of(NetworkLaw law) { return kNetworkLawNames[sta
 std::optional<NetworkLaw> network_law_named(std::string_view name);  // none: no such law
 
 struct AnalysisOptions {
-  std::optional<NetworkLaw> law;        // --law; none: the state's own law (a network: friction)
-  bool cell_free = false;               // --cell free: add the diagonal strain dofs
-  std::optional<double> gap_tolerance;  // --gap-tolerance [length of the input]
-  bool prestress = false;               // --prestress: modes of the full tangent, too
-  bool near_null = false;               // --near-null: near-null singular values of G whatever its size
-  int most_vectors = 20;                // --vectors: of each basis of the section bases
-  std::vector<double> stiffness;        // --stiffness: K_N, K_T, K_R of a packing without a law, as given
-  double k_max = 0;                     // --k-max [1/length]; 0: the section's default
+  std::optional<NetworkLaw> law;           // --law; none: the state's own law (a network: friction)
+  bool cell_free = false;                  // --cell free: add the diagonal strain dofs
+  std::optional<double> gap_tolerance;     // --gap-tolerance [length of the input]
+  std::optional<std::vector<double>> box;  // --box: edges of the cell of a file that has none
+  bool prestress = false;                  // --prestress: modes of the full tangent, too
+  bool near_null = false;                  // --near-null: near-null singular values of G whatever its size
+  int most_vectors = 20;                   // --vectors: of each basis of the section bases
+  std::optional<int> modes = 20;           // --modes: lowest vibration modes; none: all of them
+  std::optional<double> bin_width;         // --bins [F1; of N_over_mean the mean]: of histograms; none: 0.02, and 0.1
+  std::vector<double> stiffness;           // --stiffness: K_N, K_T, K_R of a packing without a law, as given
+  double k_max = 0;                        // --k-max [1/length]; 0: the section's default
   using Window = std::optional<std::array<double, 2>>;
   Window k_window;                                   // --k-window [1/length]: of the fits of I(k); none: the default
   Window r_window;                                   // --r-window [length]: of the fits of C(r) and M(r)
@@ -51,6 +54,7 @@ struct AnalysisInput {
   std::optional<State<Spheres>>
       spheres_state;         // that it comes from: law and walls, its bodies and links are moved out. None: no law
   bool links_given = false;  // the file lists contacts (a state always does); false: found by touching
+  std::optional<double> touching_tolerance;  // gap up to which contacts were found [length]; none: not by touching
   std::optional<State<TriangleGrains>> triangles;  // a packing of triangles; `state` then has no grains
   OwnedNetwork triangle_links;                     // of its triangles, see set_triangles()
 

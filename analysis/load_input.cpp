@@ -2,12 +2,14 @@
 
 #include "dem/files/packing_file.hpp"
 #include "dem/input_error.hpp"
+#include "dem/state/touching.hpp"
 
 namespace isostat {
 
 AnalysisInput load_input(const std::string& path, const AnalysisOptions& options) {
   PackingReading reading;
   reading.gap_tolerance = options.gap_tolerance;
+  reading.box = options.box;
   PackingFile file = read_packing(path, reading);
   AnalysisInput input;
   input.path = path;
@@ -22,6 +24,10 @@ AnalysisInput load_input(const std::string& path, const AnalysisOptions& options
   }
   if (input.packing_3d) put_free_first(*input.packing_3d);
   input.links_given = file.links_given;
+  if (!file.links_given && !file.triangles)
+    input.touching_tolerance =
+        options.gap_tolerance.value_or(input.packing_3d ? default_gap_tolerance(input.packing_3d->bodies)
+                                                        : default_gap_tolerance(input.packing().bodies));
   if (file.triangles) input.set_triangles(std::move(*file.triangles), file.corners);
   if (options.cell_free && !input.has_cell())
     throw InputError(path, 0, "--cell", "free", "needs a periodic cell; this packing is isolated");

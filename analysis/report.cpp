@@ -6,6 +6,7 @@
 #include <optional>
 #include <sstream>
 
+#include "analysis/network/contact_tolerance.hpp"
 #include "analysis/network/force_scale.hpp"
 #include "analysis/network/sections.hpp"
 #include "analysis/network/triangle_sections.hpp"
@@ -22,10 +23,12 @@ const std::vector<Section>& sections() {
       {.name = "counts",
        .takes = {.space = true, .triangles = OfTriangles::any},
        .compute = counts_section,
-       .tables = counts_tables},
+       .tables = counts_tables,
+       .warning = contact_warning},
       {.name = "equilibrium",
-       .takes = {.space = true, .triangles = OfTriangles::any, .law = true},
-       .compute = equilibrium_section},
+       .takes = {.space = true, .triangles = OfTriangles::any, .forces = Forces::needed},
+       .compute = equilibrium_section,
+       .warning = balance_warning},
       {.name = "stress",
        .takes = {.space = true,
                  .triangles = OfTriangles::any,
@@ -50,33 +53,39 @@ const std::vector<Section>& sections() {
        .tables = two_contacts_tables},
       {.name = "rigidity",
        .takes = {.space = true, .triangles = OfTriangles::with_energy},
-       .compute = rigidity_section},
+       .compute = rigidity_section,
+       .warning = contact_warning},
       {.name = "clusters",
        .takes = {.space = true, .triangles = OfTriangles::with_energy},
        .compute = clusters_section,
-       .tables = clusters_tables},
-      {.name = "loops", .takes = {}, .compute = loops_section, .tables = loops_tables},
+       .tables = clusters_tables,
+       .warning = contact_warning},
+      {.name = "loops", .takes = {}, .compute = loops_section, .tables = loops_tables, .warning = contact_warning},
       {.name = "stiffness",
        .takes = {.space = true, .triangles = OfTriangles::with_energy, .stiffness = true},
-       .compute = stiffness_section},
+       .compute = stiffness_section,
+       .warning = contact_warning},
       {.name = "moduli",
        .takes = {.space = true,
                  .triangles = OfTriangles::with_energy,
                  .cell_for = "elastic moduli are those of its strains",
                  .stiffness = true,
                  .strains = true},
-       .compute = moduli_section},
+       .compute = moduli_section,
+       .warning = contact_warning},
       {.name = "modes",
        .takes =
            {.space = true, .triangles = OfTriangles::with_energy, .forces = Forces::with_prestress, .stiffness = true},
        .compute = modes_section,
        .tables = modes_tables,
-       .only_when_named = true},
+       .only_when_named = true,
+       .warning = contact_warning},
       {.name = "bases",
        .takes = {.space = true, .triangles = OfTriangles::with_energy},
        .compute = bases_section,
        .tables = bases_tables,
-       .only_when_named = true},
+       .only_when_named = true,
+       .warning = contact_warning},
       {.name = "pores", .takes = {}, .compute = pores_section},
       {.name = "scattering",
        .takes = {.cell_for = "I(k) lives on its reciprocal lattice", .grains = true},
@@ -180,15 +189,14 @@ std::optional<std::string> refusal(const Takes& takes, const AnalysisInput& inpu
   if (!input.has_cell() && !takes.cell_for.empty()) return "needs a periodic cell: " + std::string(takes.cell_for);
   if (input.grains() == 0 && takes.grains) return "needs at least one grain";
   if (takes.beams && !input.triangles) return "needs grains of triangles joined by beams";
-  if (!input.has_law() && takes.law && !input.packing_3d)
-    return "needs a state of the solver: this input has no interaction law";
   const bool forces = read_forces(input).known;
-  if (!forces && (takes.forces == Forces::needed || (takes.law && input.packing_3d)))
-    return "needs forces: this input has none";
+  if (!forces && takes.forces == Forces::needed) return "needs forces: this input has none";
   if (!forces && takes.forces == Forces::with_prestress && options.prestress)
     return "--prestress needs the forces of the links";
   if (input.packing_3d && takes.forces == Forces::with_prestress && options.prestress)
     return "--prestress is for packings in the plane";
+  if (!input.has_law() && takes.forces == Forces::with_prestress && options.prestress && options.stiffness.empty())
+    return "--prestress needs the stiffness of the contacts in the units of their forces: --stiffness";
   if (input.packing_3d && (takes.strains || (takes.stiffness && options.cell_free)) && input.spheres().any_held())
     return "strains the cell, and this one has walls in it that hold";
   if (input.triangles && takes.stiffness && !options.stiffness.empty()) return "--stiffness is for disks and spheres";
@@ -209,12 +217,20 @@ std::optional<std::string> refusal(const Takes& takes, const AnalysisInput& inpu
 
 }  // namespace
 
+std::optional<std::string> refusal_of(std::string_view section, const AnalysisInput& input,
+                                      const AnalysisOptions& options) {
+  const auto found =
+      std::find_if(sections().begin(), sections().end(), [&](const Section& s) { return s.name == section; });
+  return refusal(found->takes, input, options);
+}
+
 nlohmann::ordered_json analyze(const AnalysisInput& input, const AnalysisOptions& options,
                                const std::vector<std::string>& only) {
   nlohmann::ordered_json report;
   report["isostat"] = version();
   report["inputs"] = {input.path};
   report["units"] = units_of(input);
+  std::vector<std::string (*)(const AnalysisInput&)> warnings;  // one of several sections is told once
   for (const Section& section : sections()) {
     const bool named = std::find(only.begin(), only.end(), section.name) != only.end();
     if (!named && (!only.empty() || section.only_when_named)) continue;
@@ -226,10 +242,14 @@ nlohmann::ordered_json analyze(const AnalysisInput& input, const AnalysisOptions
       if (options.begins) options.begins(section.name);
       auto value = section.compute(input, options);
       report[section.name] = std::move(value);
+      if (section.warning && std::find(warnings.begin(), warnings.end(), section.warning) == warnings.end())
+        warnings.push_back(section.warning);
     } catch (const InputError&) {
       if (named) throw;  // else it is absent like one that does not take the input
     }
   }
+  for (const auto warning : warnings)
+    if (const std::string text = warning(input); !text.empty()) report["warnings"].push_back(input.path + ": " + text);
   set_undefined_to_null(report);
   return report;
 }

@@ -221,7 +221,9 @@ void add_nested(std::vector<std::pair<std::string, std::string>>& files, const s
   }
 }
 
-bool is_section(const std::string& key) { return key != "isostat" && key != "inputs" && key != "units"; }
+bool is_section(const std::string& key) {
+  return key != "isostat" && key != "inputs" && key != "units" && key != "warnings";
+}
 
 }  // namespace
 
@@ -234,6 +236,8 @@ std::string report_as_text(const Json& report) {
     add_lines(text, "", v,
               [&, section = key](const std::string& name) { return unit_of(section + "." + name, units); });
   }
+  for (const Json& warning : report.value("warnings", Json::array()))
+    text += "warning: " + warning.get<std::string>() + '\n';
   if (!units.empty() && !units.contains("length")) text += "numbers with a unit are in that of the input file\n";
   return text;
 }
@@ -256,6 +260,22 @@ std::vector<std::pair<std::string, Json>> report_scalars(const Json& report) {
   std::vector<std::pair<std::string, Json>> scalars;
   for (const auto& [key, v] : rows) scalars.emplace_back(key, *v);
   return scalars;
+}
+
+std::string reports_as_table(const std::vector<Json>& reports) {
+  std::vector<Column> columns{{"file", {}}};
+  std::map<std::string, std::size_t> column_of;
+  for (std::size_t row = 0; row < reports.size(); ++row) {
+    columns[0].values.push_back(reports[row].at("inputs").at(0));
+    for (const auto& [key, value] : report_scalars(reports[row])) {
+      const auto [at, added] = column_of.emplace(key, columns.size());
+      if (added) columns.push_back({key, {}});
+      columns[at->second].values.resize(row);  // null in the reports that lack it
+      columns[at->second].values.push_back(value);
+    }
+  }
+  for (Column& c : columns) c.values.resize(reports.size());
+  return columns_csv(columns);
 }
 
 std::string csv_field(const Json& value) { return field(value); }

@@ -23,6 +23,10 @@ std::vector<std::pair<std::string, std::string>> report_as_csv(const nlohmann::o
 // an ensemble {"mean", "sd", "se"}. Arrays that are columns, histograms and lists are left out.
 std::vector<std::pair<std::string, nlohmann::ordered_json>> report_scalars(const nlohmann::ordered_json& report);
 
+// A line for each report of one input: `file`, then its scalars as SECTION.KEY, in the order in which they first
+// appear.
+std::string reports_as_table(const std::vector<nlohmann::ordered_json>& reports);
+
 // One field of a CSV file: null is empty, a boolean 0 or 1, a real has 17 digits, words are quoted where they must be.
 std::string csv_field(const nlohmann::ordered_json& value);
 

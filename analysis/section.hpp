@@ -28,7 +28,6 @@ struct Takes {
   bool space = false;  // packings in space, too
   OfTriangles triangles = OfTriangles::none;
   std::string_view cell_for = {};  // why it needs a periodic cell; empty: it takes isolated packings, too
-  bool law = false;                // needs an interaction law: a state of the solver
   Forces forces = Forces::not_needed;
   bool grains = false;     // needs at least one grain
   bool beams = false;      // needs grains that are held together by beams
@@ -52,5 +51,7 @@ struct Section {
   Json (*pooled)(const std::vector<Json>& aligned) = nullptr;
   // Long to compute or to read: left out unless it is named.
   bool only_when_named = false;
+  // What a reader of the value has to know, in a sentence; empty: nothing. `warnings` of the report.
+  std::string (*warning)(const AnalysisInput&) = nullptr;
 };
 }  // namespace isostat

@@ -8,7 +8,9 @@
 
 namespace isostat {
 
-// Throws InputError for a value out of its range.
+// Both throw InputError for a value out of its range. Those that say what a file without contacts, cell or law is taken
+// to mean (`draw` has them, too), and all of them.
+AnalysisOptions reading_options(const Arguments& arguments);
 AnalysisOptions analysis_options(const Arguments& arguments);
 
 // Throws InputError for an option about a section that is not among those named.

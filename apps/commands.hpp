@@ -10,6 +10,7 @@ int analyze_command(int argc, char** argv);
 int info_command(int argc, char** argv);
 int draw_command(int argc, char** argv);
 int plot_command(int argc, char** argv);
+int compare_command(int argc, char** argv);
 int convert_command(int argc, char** argv);
 int lab_command(int argc, char** argv);
 

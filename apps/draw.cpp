@@ -8,6 +8,7 @@
 #include "analysis/figure/figure_file.hpp"
 #include "analysis/figure/film_file.hpp"
 #include "analysis/load_input.hpp"
+#include "apps/analysis_options.hpp"
 #include "apps/commands.hpp"
 #include "apps/draw/subjects.hpp"
 #include "apps/file_rule.hpp"
@@ -54,13 +55,13 @@ Drawn system_of(const AnalysisInput& input) {
 }
 
 // Of one system.
-std::vector<AnalysisInput> load_all(const std::vector<std::string>& paths) {
+std::vector<AnalysisInput> load_all(const std::vector<std::string>& paths, const AnalysisOptions& options) {
   std::vector<AnalysisInput> inputs;
   const auto name = [](const AnalysisInput& of) {
     return std::string(kDrawnNames[static_cast<std::size_t>(system_of(of))]);
   };
   for (const std::string& path : paths) {
-    inputs.push_back(load_input(path, {}));
+    inputs.push_back(load_input(path, options));
     AnalysisInput& input = inputs.back();
     if (system_of(input) != system_of(inputs[0]))
       throw InputError(
@@ -102,12 +103,14 @@ ForceConvention convention_of(const Arguments& arguments) {
 }
 
 std::string what_to_draw(const Arguments& arguments, bool forces_known) {
-  const bool asks_forces = arguments.has("--threshold") || arguments.has("--width");
+  const bool asks_forces = arguments.has("--threshold") || arguments.has("--width") || arguments.has("--scale");
   const std::string what = arguments.value("--what").value_or(asks_forces || forces_known ? "forces" : "grains");
   if (asks_forces && what != "forces" && what != "stressed")
-    throw InputError("command line", 0, "--what", what, "--threshold and --width are about forces");
+    throw InputError("command line", 0, "--what", what, "--threshold, --width and --scale are about forces");
   if (arguments.has("--mode") && what != "modes")
     throw InputError("command line", 0, "--what", what, "--mode is about modes");
+  if (arguments.has("--stiffness") && what != "modes")
+    throw InputError("command line", 0, "--what", what, "--stiffness is about modes");
   return what;
 }
 
@@ -120,6 +123,10 @@ int draw_command(int argc, char** argv) {
         "gives no forces"},
        {"--threshold", "F", "links whose total force is below F are blue, disks touched only by such light grey"},
        {"--width", "MEASURE", "line width by normal or total force; default: normal, with --threshold total"},
+       {"--scale", "F", "forces: the one whose line is as wide as the legend says of F0 or aP; default by the file"},
+       {"--box", "L1,L2[,L3]", "edges of the periodic cell of a file that has none"},
+       {"--gap-tolerance", "LENGTH", "gap up to which grains of a list without contacts touch"},
+       {"--stiffness", "K_N[,K_T[,K_R]]", "modes: of contacts, of a packing without a law"},
        {"--mode", "N", "which vibration mode, from the lowest above the zero modes; default 1"},
        {"--view", "DIRECTION",
         "spheres: from where, x, y, z or AZIMUTH,ELEVATION in degrees, 0,0 from x, 0,90 from above; default -60,20"},
@@ -134,6 +141,8 @@ int draw_command(int argc, char** argv) {
   (void)arguments.choice("--width", {"normal", "total"});
   if (const auto threshold = arguments.number("--threshold"); threshold && !(*threshold > 0))
     throw InputError("command line", 0, "--threshold", *arguments.value("--threshold"), "must be positive");
+  if (const auto scale = arguments.number("--scale"); scale && !(*scale > 0))
+    throw InputError("command line", 0, "--scale", *arguments.value("--scale"), "must be positive");
   const std::string path = arguments.required("-o");
   FileRule rule;
   for (const std::string& input : arguments.inputs()) rule.reads("INPUT", input);
@@ -147,7 +156,7 @@ int draw_command(int argc, char** argv) {
   else
     picture_file.emplace(path);
 
-  const std::vector<AnalysisInput> inputs = load_all(arguments.inputs());
+  const std::vector<AnalysisInput> inputs = load_all(arguments.inputs(), reading_options(arguments));
   Drawing drawing = drawing_of(arguments, inputs);
   if (!film) drawing.captions.clear();
   const PictureSeries series = [&] {

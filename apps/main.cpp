@@ -31,6 +31,7 @@ const std::vector<Command>& commands() {
       {"study", study_command, "parameter sets times seeds: states, and one ensemble row a set"},
       {"lab", lab_command, "few-body experiments against closed forms; speed of the step loop"},
       {"analyze", analyze_command, "counts, equilibrium, stress, forces, percolation, ... of packings"},
+      {"compare", compare_command, "what changed from one state to another: contacts, displacements, rigid regions"},
       {"convert", convert_command, "state, network, CSV, LAMMPS dump, XYZ and ParaView files"},
       {"info", info_command, "what a state file is: hash, cell, scene, dimensionless numbers, provenance"},
       {"draw", draw_command, "picture of a packing: grains, forces, pores, clusters, modes; .svg, .pdf, .png"},

@@ -114,7 +114,7 @@ std::vector<std::string> files_of(const PackJob& job, const std::optional<std::s
   const OutputScene& o = job.scene.output;
   for (int k = 0; k < job.samples; ++k) {
     const std::string output = numbered(job.output, k, job.samples);
-    if (!o.snapshot_times.empty() || !o.snapshot_solid_fractions.empty())
+    if (o.keeps_snapshots())
       rule.writes_numbered("the snapshots", output, "snapshot");
     writes("-o", output);
     writes("-o, the partial state", partial_name(output));

@@ -12,6 +12,7 @@
 #include "dem/files/atomic_file.hpp"
 #include "dem/files/state_file.hpp"
 #include "dem/input_error.hpp"
+#include "dem/run/loading.hpp"
 #include "dem/run_error.hpp"
 #include "dem/scene/text.hpp"
 #include "dem/spheres/series.hpp"
@@ -74,6 +75,25 @@ std::string what_is_missing(const AnyState& any) {
       any);
 }
 
+// Which stages loaded a network too fast, or did not hold the stress that they imposed; empty: none.
+std::string not_quasi_static(const std::vector<StageOutcome>& stages) {
+  const StageOutcome *fastest = nullptr, *worst = nullptr;
+  std::string which;
+  for (const StageOutcome& s : stages) {
+    const bool fast = s.inertial_number > kQuasiStatic, loose = s.stress_error > kStressHeld;
+    if (fast && (!fastest || s.inertial_number > fastest->inertial_number)) fastest = &s;
+    if (loose && (!worst || s.stress_error > worst->stress_error)) worst = &s;
+    if (fast || loose) which += (which.empty() ? "" : ", ") + std::to_string(s.stage);
+  }
+  if (which.empty()) return "";
+  char fast[80] = "", loose[80] = "";
+  if (fastest)
+    std::snprintf(fast, sizeof fast, " inertial number up to %.2g (quasi-static below %g)%s", fastest->inertial_number,
+                  kQuasiStatic, worst ? "," : "");
+  if (worst) std::snprintf(loose, sizeof loose, " stress off by up to %.2g times what is imposed", worst->stress_error);
+  return "not quasi-static, stage " + which + ":" + fast + loose + "; docs/measured/loading.md says what helps";
+}
+
 // What makes the same state: the scene but for what is watched of it.
 std::string makes(Scene scene) {
   scene.output = {};
@@ -131,6 +151,7 @@ class SampleRun {
                                         ? ""
                                         : "; finish.method = \"newton\" follows these to their end"));
     }
+    if (const std::string why = not_quasi_static(outcome.run.stages); !why.empty()) outcome.messages.push_back(why);
     const bool all_stages = state.progress.stage == static_cast<std::int32_t>(job_.scene.stages.size());
     outcome.code = outcome.run.all_met() && all_stages ? exit_done : exit_unfinished;
     end(state, outcome, job_.output);
@@ -208,7 +229,7 @@ class SampleRun {
       hooks.observe = [this](const State<System>& s) { series_->add(series_columns(s, job_.scene.output.energies)); };
       hooks.observe_interval = o.series_interval;
     }
-    if (!o.snapshot_times.empty() || !o.snapshot_solid_fractions.empty())
+    if (o.keeps_snapshots())
       hooks.snapshot = [this, count = snapshots_before(state.time)](const State<System>& s) mutable {
         write(s, snapshot(++count));
       };

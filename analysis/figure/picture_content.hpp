@@ -67,6 +67,17 @@ struct StressedOptions {
 };
 std::unique_ptr<PictureContent> stressed_content(StressedOptions options);
 
+// What changed since another state (analysis/compare): grains in the colour of the region that moved rigidly, contacts
+// kept, gained and lost, arrows of the displacements.
+struct ChangesOptions {
+  std::vector<std::int32_t> region_of_grain;  // or -1
+  std::size_t regions = 0;
+  std::vector<Link<2>> kept, gained, lost;  // between bodies of the packing that is drawn
+  std::vector<Vec2> displacement;           // one a body
+  RichText length_unit;
+};
+std::unique_ptr<PictureContent> changes_content(ChangesOptions options);
+
 // Links by their class (analysis/stiffness/link_classes.hpp), one a link.
 std::unique_ptr<PictureContent> loops_content(std::vector<LinkClass> classes);
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "analysis/figure/cluster_colors.hpp"
+#include "analysis/figure/nice_numbers.hpp"
 #include "analysis/figure/picture_content.hpp"
 #include "geometry/base/index.hpp"
 
@@ -57,7 +58,9 @@ class StressedContent final : public PictureContent {
     if (stretched) items.push_back(line_item(em, kTensile, plain("tensile")));
     if (quiet) items.push_back(line_item(em, kFaint, options_.below));
     if (options_.clusters > 0)
-      items.push_back(force_scale_item(width_of(options_.scale, pen), em, options_.scale_label));
+      items.push_back(
+          force_scale_item(width_of(options_.scale, pen), em,
+                           options_.scale_label.empty() ? number_text(options_.scale) : options_.scale_label));
     return items;
   }
 

@@ -134,7 +134,8 @@ Plot series_plot(const DataTable& table) {
   };
   const auto add_curve = [&](Chart& chart, const DataColumn& column, RichText label) {
     if (!(chart.y.log ? has_positive(column.value) : has_finite(column.value))) return;
-    const CurveStyle style = column.name.starts_with("imposed") ? CurveStyle::dashed : CurveStyle::line;
+    const bool colour_taken = chart.curves.size() >= kCurves.size();
+    const CurveStyle style = column.name.starts_with("imposed") || colour_taken ? CurveStyle::dashed : CurveStyle::line;
     Curve curve{std::move(label), style, time->value, column.value, {}, {}, curve_color(chart.curves.size())};
     chart.curves.push_back(std::move(curve));
   };

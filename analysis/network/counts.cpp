@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "analysis/network/contact_tolerance.hpp"
 #include "analysis/network/coordination.hpp"
 #include "analysis/network/sections.hpp"
 #include "analysis/network/triangle_sections.hpp"
@@ -83,7 +84,12 @@ Table grains_of(const Packing<D>& packing, const ForceReading& reading) {
 nlohmann::ordered_json counts_section(const AnalysisInput& input, const AnalysisOptions&) {
   if (input.triangles) return triangle_counts(input);
   const ForceReading reading = read_forces(input);
-  return input.packing_3d ? counts_of(*input.packing_3d, reading) : counts_of(input.packing(), reading);
+  auto json = input.packing_3d ? counts_of(*input.packing_3d, reading) : counts_of(input.packing(), reading);
+  if (!input.touching_tolerance || input.grains() == 0) return json;
+  const ContactTolerance found = contact_tolerance(input);
+  json["z_of_tolerance"] = {
+      {"used", found.used}, {"tolerance", found.tolerance}, {"contacts", found.contacts}, {"z", found.z}};
+  return json;
 }
 
 std::vector<Table> counts_tables(const AnalysisInput& input, const AnalysisOptions&) {

@@ -7,9 +7,11 @@
 
 #include "analysis/network/force_scale.hpp"
 #include "analysis/network/sections.hpp"
+#include "analysis/plain_number.hpp"
 #include "dem/disks/at_rest.hpp"
 #include "dem/disks/certificate.hpp"
 #include "dem/spheres/certificate.hpp"
+#include "dem/state/balance.hpp"
 #include "dem/state/balance_3d.hpp"
 #include "dem/state/link_ends.hpp"
 #include "dem/triangles/certificate.hpp"
@@ -46,6 +48,8 @@ Json certificate_json(const Certificate& c, bool yields) {
           {"rolling_yielded", c.rolling_yielded},
           {"smallest_margin", yields ? c.smallest_margin : kUndefined},
           {"moving", c.moving},
+          {"inertial_number", c.inertial_number},
+          {"stress_error", c.stress_error},
           {"finishing", c.finishing},
           {"equilibrated", c.equilibrated}};
 }
@@ -65,34 +69,72 @@ Json equilibrium_of_spheres(const State<Spheres>& state, const Packing<3>& packi
   SpherePacking whole = state.packing;
   static_cast<Packing<3>&>(whole) = packing;
   Certificate c = evaluate_certificate(whole, state.law, state.imposed_stress, state.scene.equilibrium);
-  c.finishing = state.certificate.finishing;
+  keep_record(c, state.certificate);
   return certificate_json(c, (any_contact(packing) || !whole.wall_links.empty()) && can_yield(state.law));
 }
 
-// Without a law: loads only, in units of the mean |F|, and of that times the largest diameter.
-Json equilibrium_of_spheres(const Packing<3>& packing, const ForceReading& reading) {
-  double force = 0, moment = 0, diameter = 0;
-  const std::vector<BodyLoad3> loads = net_loads(packing);
+double net_force(const BodyLoad& load) { return std::hypot(load.fx, load.fy); }
+double net_force(const BodyLoad3& load) { return norm(load.force); }
+double net_moment(const BodyLoad& load) { return std::abs(load.moment); }
+double net_moment(const BodyLoad3& load) { return norm(load.moment); }
+
+// What the forces of a packing without a law leave: they are all that is known of its equilibrium.
+struct Imbalance {
+  double force = 0, moment = 0;  // largest on a grain
+  double scale = 0;              // mean |N| of the links
+  double diameter = 0;           // of the largest grain
+  std::int64_t worst = 0;        // id of the grain with the largest net force
+  std::int64_t grains = 0;       // with a net force above kBadBalance scale
+};
+// Of the mean |N|: a simulation leaves 1e-2 at most, forces measured in an experiment some 5 %.
+constexpr double kBadBalance = 0.1;
+
+template <int D>
+Imbalance imbalance(const Packing<D>& packing) {
+  Imbalance all;
+  for (const Link<D>& link : packing.links) all.scale += std::abs(link.normal_force);
+  all.scale /= static_cast<double>(packing.links.size());
+  const auto loads = net_loads(packing);
   for (std::size_t k = 0; k < loads.size(); ++k) {
     if (!is_free(packing.part, k)) continue;
-    force = std::max(force, norm(loads[k].force)), moment = std::max(moment, norm(loads[k].moment));
-    diameter = std::max(diameter, 2 * packing.bodies.radius[k]);
+    const double force = net_force(loads[k]);
+    if (force > all.force) all.force = force, all.worst = packing.bodies.id[k];
+    all.moment = std::max(all.moment, net_moment(loads[k]));
+    all.diameter = std::max(all.diameter, 2 * packing.bodies.radius[k]);
+    all.grains += force > kBadBalance * all.scale;
   }
-  return {{"max_force", force / reading.scale},
-          {"max_moment", moment / (reading.scale * diameter)},
-          {"force_scale", reading.scale}};
+  return all;
+}
+Imbalance imbalance(const AnalysisInput& input) {
+  return input.packing_3d ? imbalance(*input.packing_3d) : imbalance(input.packing());
+}
+
+Json loads_json(const Imbalance& all) {
+  return {{"max_force", all.force / all.scale},
+          {"max_moment", all.moment / (all.scale * all.diameter)},
+          {"force_scale", all.scale}};
 }
 
 }  // namespace
 
+std::string balance_warning(const AnalysisInput& input) {
+  if (input.has_law() || !read_forces(input).known) return "";
+  const Imbalance all = imbalance(input);
+  if (!(all.force > kBadBalance * all.scale)) return "";
+  return "forces do not balance: " + std::to_string(all.grains) + " of " + std::to_string(input.grains()) +
+         " grains have a net force above " + plain_number(kBadBalance) + " of the mean |N|, grain " +
+         std::to_string(all.worst) + " one of " + plain_number(all.force / all.scale) +
+         "; what the file leaves out (tangential forces, walls, weight), or a sign";
+}
+
 Json equilibrium_section(const AnalysisInput& input, const AnalysisOptions&) {
   if (input.spheres_state) return equilibrium_of_spheres(*input.spheres_state, *input.packing_3d);
-  if (input.packing_3d) return equilibrium_of_spheres(*input.packing_3d, read_forces(input));
   if (input.triangles) {
     Json json = certificate_json(evaluate_certificate(*input.triangles), slides(*input.triangles));
     json.erase("rolling_yielded");  // no rolling resistance
     return json;
   }
+  if (!input.has_law()) return loads_json(imbalance(input));
   const State<Disks>& state = input.state;
   const Certificate c = evaluate_certificate(state);
   Json json = certificate_json(c, any_contact(state.packing) && can_yield(state.law));

@@ -60,7 +60,9 @@ std::vector<double> decades(int from, int to, int per_decade, double unit) {
 }
 
 template <int D>
-nlohmann::ordered_json histograms(const Packing<D>& packing, const ForceReading& reading) {
+nlohmann::ordered_json histograms(const Packing<D>& packing, const ForceReading& reading,
+                                  const AnalysisOptions& options) {
+  const double width = options.bin_width.value_or(0.02) * reading.scale;
   std::vector<double> normal, tangential, relative, magnitude, angle;
   double repulsive_sum = 0, repulsive = 0;
   for (const Link<D>& link : packing.links) {
@@ -76,21 +78,22 @@ nlohmann::ordered_json histograms(const Packing<D>& packing, const ForceReading&
   }
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   if (normal.empty()) return json;
-  json["N"] = as_json(anchored_histogram(normal, 0.02 * reading.scale));
-  if (!relative.empty()) json["NT"] = as_json(anchored_histogram_2(relative, tangential, 0.02 * reading.scale));
+  json["N"] = as_json(anchored_histogram(normal, width));
+  if (!relative.empty()) json["NT"] = as_json(anchored_histogram_2(relative, tangential, width));
   if (!angle.empty()) json["angle"] = as_json(histogram_over(angle, degrees(0, 180, 2)));
   json["F"] = as_json(histogram_over(magnitude, decades(-5, 2, 10, reading.scale)));
   if (repulsive > 0) {  // Fig. 9a
     std::vector<double> over_mean;
     for (const double n : normal)
       if (n > reading.threshold) over_mean.push_back(n * repulsive / repulsive_sum);
-    json["N_over_mean"] = as_json(anchored_histogram(over_mean, 0.1));
+    json["N_over_mean"] = as_json(anchored_histogram(over_mean, options.bin_width.value_or(0.1)));
   }
   return json;
 }
 
 template <int D>
-nlohmann::ordered_json forces_of(const Packing<D>& packing, const ForceReading& reading) {
+nlohmann::ordered_json forces_of(const Packing<D>& packing, const ForceReading& reading,
+                                 const AnalysisOptions& options) {
   Population plus, minus, zero;
   double unstressed = 0, above_tenth = 0;
   std::vector<double> magnitudes;
@@ -117,7 +120,7 @@ nlohmann::ordered_json forces_of(const Packing<D>& packing, const ForceReading& 
   json["small_force_exponent"] = small.exponent;
   json["small_force_exponent_error"] = small.error;
   json["threshold"] = reading.threshold;
-  json["histograms"] = histograms(packing, reading);
+  json["histograms"] = histograms(packing, reading, options);
   return json;
 }
 
@@ -147,9 +150,10 @@ Table links_of(const Packing<D>& packing) {
 
 }  // namespace
 
-nlohmann::ordered_json forces_section(const AnalysisInput& input, const AnalysisOptions&) {
+nlohmann::ordered_json forces_section(const AnalysisInput& input, const AnalysisOptions& options) {
   const ForceReading reading = read_forces(input);
-  return input.packing_3d ? forces_of(*input.packing_3d, reading) : forces_of(input.packing(), reading);
+  return input.packing_3d ? forces_of(*input.packing_3d, reading, options)
+                          : forces_of(input.packing(), reading, options);
 }
 
 std::vector<Table> forces_tables(const AnalysisInput& input, const AnalysisOptions&) {

@@ -75,7 +75,7 @@ Member of_set(double mean, long count, const std::vector<double>& t) {
 }
 
 // ln p of the power law minus ln p of the exponential, of each size.
-void judge(SizeLaw& law, const std::vector<double>& sizes, const std::function<double(double)>& log_ratio) {
+void judge(SizeLawFit& law, const std::vector<double>& sizes, const std::function<double(double)>& log_ratio) {
   double sum = 0, squares = 0;
   const auto n = static_cast<double>(sizes.size());
   for (const double x : sizes) sum += log_ratio(x);
@@ -86,7 +86,7 @@ void judge(SizeLaw& law, const std::vector<double>& sizes, const std::function<d
   law.identifiable = law.message.empty();
 }
 
-bool too_few(SizeLaw& law, std::size_t count) {
+bool too_few(SizeLawFit& law, std::size_t count) {
   law.count = static_cast<long>(count);
   law.exponent = law.exponent_error = law.scale = law.scale_error = law.log_ratio = law.log_ratio_error = kNaN;
   if (law.count >= kFewestForFit) return false;
@@ -100,14 +100,14 @@ double mean_of(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-void set_scale(SizeLaw& law, const Member& exponential) {
+void set_scale(SizeLawFit& law, const Member& exponential) {
   law.scale = 1 / exponential.rate, law.scale_error = exponential.error / (exponential.rate * exponential.rate);
 }
 
 }  // namespace
 
-SizeLaw continuous_size_law(const std::vector<double>& sizes, double from, double to) {
-  SizeLaw law;
+SizeLawFit continuous_size_law(const std::vector<double>& sizes, double from, double to) {
+  SizeLawFit law;
   law.from = from, law.to = to;
   std::vector<double> in, logs;
   for (const double x : sizes)
@@ -124,8 +124,8 @@ SizeLaw continuous_size_law(const std::vector<double>& sizes, double from, doubl
   return law;
 }
 
-SizeLaw discrete_size_law(const std::vector<std::int64_t>& sizes, std::int64_t from, std::int64_t to) {
-  SizeLaw law;
+SizeLawFit discrete_size_law(const std::vector<std::int64_t>& sizes, std::int64_t from, std::int64_t to) {
+  SizeLawFit law;
   law.from = static_cast<double>(from), law.to = static_cast<double>(to);
   std::vector<double> in, logs, all, all_logs;
   for (const std::int64_t n : sizes)
@@ -143,7 +143,7 @@ SizeLaw discrete_size_law(const std::vector<std::int64_t>& sizes, std::int64_t f
   return law;
 }
 
-nlohmann::ordered_json size_law_json(const SizeLaw& law) {
+nlohmann::ordered_json size_law_json(const SizeLawFit& law) {
   const auto number = [](double v) { return std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(); };
   return {{"from", law.from},
           {"to", number(law.to)},

@@ -9,7 +9,7 @@
 
 namespace isostat {
 
-struct SizeLaw {
+struct SizeLawFit {
   double from = 0, to = std::numeric_limits<double>::infinity();  // of the sizes used
   long count = 0;
   double exponent = 0, exponent_error = 0;  // tau, and its standard error
@@ -21,13 +21,13 @@ struct SizeLaw {
 };
 
 // Sizes in [from, to); below kFewestForFit (histogram.hpp) nothing is fitted. from > 0.
-SizeLaw continuous_size_law(const std::vector<double>& sizes, double from,
-                            double to = std::numeric_limits<double>::infinity());
+SizeLawFit continuous_size_law(const std::vector<double>& sizes, double from,
+                               double to = std::numeric_limits<double>::infinity());
 // Whole sizes from..to, both included: tau of n^-tau with the sum over them as normalisation.
-SizeLaw discrete_size_law(const std::vector<std::int64_t>& sizes, std::int64_t from, std::int64_t to);
+SizeLawFit discrete_size_law(const std::vector<std::int64_t>& sizes, std::int64_t from, std::int64_t to);
 
 // {"from", "to", "count", "exponent", "exponent_error", "scale", "scale_error", "log_ratio", "log_ratio_error",
 // "identifiable", "message"}; an open end is null.
-nlohmann::ordered_json size_law_json(const SizeLaw& law);
+nlohmann::ordered_json size_law_json(const SizeLawFit& law);
 
 }  // namespace isostat

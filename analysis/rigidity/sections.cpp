@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "analysis/network/coordination.hpp"
+#include "analysis/plain_number.hpp"
 #include "analysis/rigidity/clusters.hpp"
 #include "analysis/rigidity/exact_rank.hpp"
 #include "analysis/rigidity/part_of_packing.hpp"
@@ -78,6 +79,10 @@ Json rigidity_of(const Network& network, const AnalysisInput& input, const Analy
                               : r.certified
                                   ? "special positions: two primes agree, above the bound for generic positions"
                                   : "NOT certified: two primes disagree";
+  const std::string contacts = input.triangles ? "the overlaps as they lie"
+                               : input.touching_tolerance
+                                   ? "found by touching: every gap up to " + plain_number(*input.touching_tolerance)
+                                   : "those of the file";
   return Json{{"law", name_of(law)},
               {"cell", options.cell_free ? "free" : "fixed"},
               {"N_f", r.dofs},
@@ -92,6 +97,7 @@ Json rigidity_of(const Network& network, const AnalysisInput& input, const Analy
               {"certificate",
                {{"certified", r.certified},
                 {"verdict", verdict},
+                {"contacts", contacts},
                 {"primes", primes},
                 {"K_upper", r.floppy},
                 {"K_lower_generic", r.floppy_generic},

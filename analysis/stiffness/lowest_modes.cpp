@@ -183,8 +183,9 @@ LowestModes lowest_modes(const SymmetricMatrix& a, const std::vector<char>& depe
     const std::size_t rank = columns.size() - null_dimension;
     if (rank == 0) continue;
     const SymmetricMatrix block = block_matrix(scaled, columns, number);
-    LowestModes here = block.size <= kDenseSize ? dense_modes(block, null_dimension, count, vectors)
-                                                : lanczos_modes(block, rank, count, definite, vectors, softest);
+    const bool dense = block.size <= kDenseSize || count >= block.size / 3;
+    LowestModes here = dense ? dense_modes(block, null_dimension, count, vectors)
+                             : lanczos_modes(block, rank, count, definite, vectors, softest);
     all.converged = all.converged && here.converged;
     all.value.insert(all.value.end(), here.value.begin(), here.value.end());
     for (auto& v : here.vector) all.vector.push_back(std::move(v)), columns_of.push_back(columns);

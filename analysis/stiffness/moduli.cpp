@@ -4,7 +4,6 @@
 #include "analysis/rigidity/independent_columns.hpp"
 #include "analysis/stiffness/pseudo_inverse.hpp"
 #include "analysis/stiffness/stiffness_matrix.hpp"
-#include "analysis/vector_algebra.hpp"
 #include "dem/state/link_ends.hpp"
 
 namespace isostat {
@@ -39,27 +38,15 @@ std::array<std::vector<double>, 3> strain_velocities(const LinkNetwork& network,
 
 }  // namespace
 
-Moduli elastic_moduli(const LinkNetwork& network, NetworkLaw network_law, const DiskLaw& law) {
-  const RigidityMatrix g = rigidity_matrix(network, network_law, false);
-  const std::vector<double> k = row_stiffness(network, g, law);
+ElasticResponse<3> elastic_response(const LinkNetwork& network, NetworkLaw network_law, const DiskLaw& law) {
+  RigidityMatrix g = rigidity_matrix(network, network_law, false);
+  std::vector<double> k = row_stiffness(network, g, law);
   bool definite = true;
   for (double v : k) definite = definite && v > 0;
   const PseudoInverse inverse(weighted_normal_matrix(g, k), dependent_columns(network, network_law, false),
                               definite ? SparseCholesky::Form::definite : SparseCholesky::Form::indefinite);
   const auto strain = strain_velocities(network, g);
-  std::array<std::vector<double>, 3> force, load;  // k s and G^T k s
-  for (std::size_t b = 0; b < 3; ++b) {
-    force[b] = strain[b];
-    for (std::size_t r = 0; r < k.size(); ++r) force[b][r] *= k[r];
-    load[b] = g.body_forces(force[b]);
-  }
-  Moduli c{};
-  const double area = network.packing.cell->measure();
-  for (std::size_t b = 0; b < 3; ++b) {
-    const std::vector<double> relaxed = inverse.solve(load[b]);  // grains move by -relaxed
-    for (std::size_t a = 0; a < 3; ++a) c[a][b] = (dot(strain[a], force[b]) - dot(load[a], relaxed)) / area;
-  }
-  return c;
+  return elastic_response(std::move(g), std::move(k), inverse, strain, network.packing.cell->measure());
 }
 
 }  // namespace isostat

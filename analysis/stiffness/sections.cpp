@@ -11,6 +11,7 @@
 #include "analysis/stiffness/prestressed_modes.hpp"
 #include "analysis/stiffness/pseudo_inverse.hpp"
 #include "analysis/stiffness/sphere_stiffness.hpp"
+#include "analysis/stiffness/stiff_rows.hpp"
 #include "analysis/stiffness/stiffness_matrix.hpp"
 #include "analysis/stiffness/vibration.hpp"
 #include "dem/disks/at_rest.hpp"
@@ -19,7 +20,7 @@ namespace isostat {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr int kReportedModes = 20, kTabulatedModes = 100;
+constexpr int kTabulatedModes = 100;
 
 // Of a state of spheres each contact has its own: the means over contacts, and over distant links.
 Json mean_stiffness(const AnalysisInput& input) {
@@ -40,7 +41,7 @@ Json mean_stiffness(const AnalysisInput& input) {
           {"distant", mean(distant, gaps)}};
 }
 
-Json stiffness_of(const AnalysisInput& input, const AnalysisOptions& options) {
+Json stiffness_values(const AnalysisInput& input, const AnalysisOptions& options) {
   if (input.spheres_state) return mean_stiffness(input);
   if (input.packing_3d) {
     const UniformStiffness k = network_stiffness(*input.packing_3d, options.stiffness);
@@ -57,6 +58,16 @@ Json stiffness_of(const AnalysisInput& input, const AnalysisOptions& options) {
           {"tangential", law.tangential_stiffness},
           {"rolling", law.rolling_stiffness},
           {"distant", law.attraction_range > 0 ? Json(distant(law, 0).stiffness) : Json(nullptr)}};
+}
+
+// With the assumption that a packing without a law needs: results are proportional to it.
+Json stiffness_of(const AnalysisInput& input, const AnalysisOptions& options) {
+  Json json = stiffness_values(input, options);
+  if (!input.has_law())
+    json["assumed"] = options.stiffness.empty()
+                          ? "the packing brings no law, these are defaults; give its own by --stiffness"
+                          : "the packing brings no law, --stiffness gives it these";
+  return json;
 }
 
 std::string explain_floppy(const ExactRank& r) {
@@ -94,33 +105,58 @@ Json described(const SphereModuli& m) {
   return {{"tensor", rows}, {"bulk", bulk}, {"shear", (diagonal - 3 * bulk) / 10 + shear / 5}};
 }
 
-std::vector<SphereStiffness> sphere_stiffness(const AnalysisInput& input, const AnalysisOptions& options) {
-  if (input.spheres_state) return by_link(*input.packing_3d, input.spheres_state->law);
-  return by_link(*input.packing_3d, network_stiffness(*input.packing_3d, options.stiffness));
+Json described(const EnergyShares& e) {
+  const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
+  return {{"normal", number(e.normal)},
+          {"tangential", number(e.tangential)},
+          {"rolling", number(e.rolling)},
+          {"distant", number(e.distant)},
+          {"participation", number(e.participation)}};
 }
 
-// G with rows in which stiffness is diagonal, and that stiffness.
-struct StiffRows {
-  RigidityMatrix g;
-  std::vector<double> k;
-};
-StiffRows stiff_rows(const LinkNetwork& network, const AnalysisInput& input, const AnalysisOptions& options) {
-  RigidityMatrix g = rigidity_matrix(network, input.network_law(options), options.cell_free);
-  std::vector<double> k = row_stiffness(network, g, law_of(input, options));
-  return {std::move(g), std::move(k)};
+// Of an isotropic compression, and of the shear angles (in space all three, their energies added).
+template <std::size_t N>
+Json energy_json(const ElasticResponse<N>& response, const std::vector<bool>& contact) {
+  constexpr std::size_t d = N == 3 ? 2 : 3;
+  std::array<double, N> bulk{};
+  std::vector<std::array<double, N>> shear(N - d);
+  for (std::size_t a = 0; a < d; ++a) bulk[a] = 1;
+  for (std::size_t a = 0; a < N - d; ++a) shear[a][d + a] = 1;
+  return {{"bulk", described(energy_shares(response, contact, {bulk}))},
+          {"shear", described(energy_shares(response, contact, shear))}};
 }
-StiffRows stiff_rows(const SphereNetwork& network, const AnalysisInput& input, const AnalysisOptions& options) {
-  RigidityMatrix g =
-      in_contact_frames(network, rigidity_matrix(network, input.network_law(options), options.cell_free));
-  std::vector<double> k = row_stiffness(g, sphere_stiffness(input, options));
-  return {std::move(g), std::move(k)};
+
+// The moduli, what they would be if no grain left the affine motion, and where the energy sits.
+template <std::size_t N>
+void add_response(Json& section, const ElasticResponse<N>& response, const std::vector<bool>& contact) {
+  const Json values = described(response.tensor), affine = described(response.affine);
+  for (const auto& [key, value] : values.items()) section[key] = value;
+  section["affine"] = affine;
+  const auto over = [&](const char* key) {
+    const double held = affine[key];
+    return held > 0 ? Json(values[key].template get<double>() / held) : Json(nullptr);
+  };
+  section["over_affine"] = {{"bulk", over("bulk")}, {"shear", over("shear")}};
+  section["energy"] = energy_json(response, contact);
+}
+
+std::vector<bool> contacts_of(const LinkNetwork& network) {
+  std::vector<bool> contact(network.links(), true);  // an overlap of triangles is one
+  for (std::size_t l = 0; l < network.packing.links.size(); ++l)
+    contact[l] = network.packing.links[l].kind != LinkKind::distant;
+  return contact;
+}
+std::vector<bool> contacts_of(const SphereNetwork& network) {
+  std::vector<bool> contact;
+  for (const Link<3>& link : network.packing.links) contact.push_back(link.kind != LinkKind::distant);
+  return contact;
 }
 
 template <class Network>
 Json stiffness_of_network(const Network& network, const AnalysisInput& input, const AnalysisOptions& options) {
   const NetworkLaw network_law = input.network_law(options);
   const ExactRank rank = exact_rank(network, network_law, options.cell_free);
-  const auto [g, k] = stiff_rows(network, input, options);
+  const auto [g, k] = stiff_rows(input, options);
   const bool definite = std::all_of(k.begin(), k.end(), [](double v) { return v > 0; });
 
   Json section{{"positive_definite", nullptr}, {"inertia", nullptr}, {"stiffness", stiffness_of(input, options)}};
@@ -150,19 +186,12 @@ Json moduli_of_spheres(const AnalysisInput& input, const AnalysisOptions& option
   const ExactRank rank = exact_rank(network, law, false);
   Json section = {{"tensor", nullptr}, {"floppy", rank.mechanisms > 0}, {"explanation", explain_floppy(rank)}};
   try {
-    const Json values = described(elastic_moduli(network, law, sphere_stiffness(input, options)));
-    for (const auto& [key, value] : values.items()) section[key] = value;
+    add_response(section, elastic_response(network, law, sphere_stiffness(input, options)), contacts_of(network));
   } catch (const FactorisationFailed& e) {
     section["failed"] = e.what();
   }
   section["stiffness"] = stiffness_of(input, options);
   return section;
-}
-
-VibrationModes modes_of(const AnalysisInput& input, const AnalysisOptions& options, int count) {
-  const NetworkLaw law = input.network_law(options);
-  if (input.packing_3d) return vibration_modes(input.spheres(), law, sphere_stiffness(input, options), count, false);
-  return vibration_modes(input.network(), law, law_of(input, options), count, false);
 }
 
 }  // namespace
@@ -180,14 +209,14 @@ Json moduli_section(const AnalysisInput& input, const AnalysisOptions& options) 
   const ExactRank rank = exact_rank(network, network_law, false);
   Json section = {{"tensor", nullptr}, {"floppy", rank.mechanisms > 0}, {"explanation", explain_floppy(rank)}};
   try {
-    const Json values = described(elastic_moduli(network, network_law, law));
-    for (const auto& [key, value] : values.items()) section[key] = value;
+    add_response(section, elastic_response(network, network_law, law), contacts_of(network));
   } catch (const FactorisationFailed& e) {
     section["failed"] = e.what();
   }
   section["stiffness"] = stiffness_of(input, options);
   // Friction between triangles has no geometric term here.
-  if (read_forces(input).known && !(input.triangles && network_law == NetworkLaw::friction)) {
+  const bool own_units = input.has_law() || !options.stiffness.empty();  // forces in those of the stiffness
+  if (own_units && read_forces(input).known && !(input.triangles && network_law == NetworkLaw::friction)) {
     try {
       const TangentModuli tangent = tangent_moduli(network, network_law, law);
       section["with_geometric_term"] = described(tangent.tensor);
@@ -202,17 +231,19 @@ Json moduli_section(const AnalysisInput& input, const AnalysisOptions& options) 
 Json modes_section(const AnalysisInput& input, const AnalysisOptions& options) {
   Json section{{"omega", nullptr}};
   try {
-    const VibrationModes modes = modes_of(input, options, kReportedModes);
+    const VibrationModes modes = modes_of(input, options, mode_count(input, options), false);
     section["omega"] = modes.omega;
+    section["participation"] = modes.participation;
     section["zero_modes"] = modes.zero_modes;
     section["converged"] = modes.converged;
   } catch (const FactorisationFailed& e) {
     section["reason"] = e.what();
   }
+  section["stiffness"] = stiffness_of(input, options);
   if (!options.prestress) return section;
   try {
-    const PrestressedModes modes =
-        prestressed_modes(input.network(), input.network_law(options), law_of(input, options), kReportedModes);
+    const PrestressedModes modes = prestressed_modes(input.network(), input.network_law(options),
+                                                     law_of(input, options), mode_count(input, options));
     Json omega_squared = Json::array();
     for (const auto& v : modes.omega_squared) omega_squared.push_back({v.real(), v.imag()});
     section["with_geometric_term"] = {
@@ -227,10 +258,12 @@ Json modes_section(const AnalysisInput& input, const AnalysisOptions& options) {
 }
 
 std::vector<Table> modes_tables(const AnalysisInput& input, const AnalysisOptions& options) {
-  const VibrationModes modes = modes_of(input, options, kTabulatedModes);
-  Table density{"modes.density", {"omega", "modes_below"}, {}};
+  if (!options.modes) return {};  // the report has them all
+  const VibrationModes modes = modes_of(input, options, std::max(*options.modes, kTabulatedModes), false);
+  Table density{"modes.density", {"omega", "modes_below", "participation"}, {}};
   for (std::size_t k = 0; k < modes.omega.size(); ++k)
-    density.rows.push_back({modes.omega[k], static_cast<double>(modes.zero_modes) + static_cast<double>(k) + 1});
+    density.rows.push_back(
+        {modes.omega[k], static_cast<double>(modes.zero_modes) + static_cast<double>(k) + 1, modes.participation[k]});
   return {density};
 }
 

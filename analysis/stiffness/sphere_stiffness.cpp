@@ -102,14 +102,14 @@ SymmetricMatrix stiffness_matrix(const SphereNetwork& network, NetworkLaw law, b
   return weighted_normal_matrix(g, k);
 }
 
-SphereModuli elastic_moduli(const SphereNetwork& network, NetworkLaw law,
-                            const std::vector<SphereStiffness>& stiffness) {
-  const RigidityMatrix g = in_contact_frames(network, rigidity_matrix(network, law, false));
-  const Vector k = row_stiffness(g, stiffness);
+ElasticResponse<6> elastic_response(const SphereNetwork& network, NetworkLaw law,
+                                    const std::vector<SphereStiffness>& stiffness) {
+  RigidityMatrix g = in_contact_frames(network, rigidity_matrix(network, law, false));
+  Vector k = row_stiffness(g, stiffness);
   const PseudoInverse inverse(weighted_normal_matrix(g, k), dependent_columns(network, law, false),
                               all_positive(k) ? SparseCholesky::Form::definite : SparseCholesky::Form::indefinite);
   // Link velocities of unit strains with the grains held: the centres move apart by -e r.
-  std::array<Vector, 6> strain, force, load;
+  std::array<Vector, 6> strain;
   for (auto& s : strain) s.assign(k.size(), 0.0);
   for (std::size_t r = 0; r < k.size(); ++r) {
     if (g.kind[r] == RowKind::rolling) continue;
@@ -121,22 +121,10 @@ SphereModuli elastic_moduli(const SphereNetwork& network, NetworkLaw law,
       strain[3 + e][r] = -0.5 * (axis[p] * b[q] + axis[q] * b[p]);
     }
   }
-  for (std::size_t e = 0; e < 6; ++e) {
-    force[e] = strain[e];
-    for (std::size_t r = 0; r < k.size(); ++r) force[e][r] *= k[r];
-    load[e] = g.body_forces(force[e]);
-  }
-  SphereModuli c{};
-  const double volume = network.packing.cell->measure();
-  for (std::size_t b = 0; b < 6; ++b) {
-    const Vector relaxed = inverse.solve(load[b]);  // grains move by -relaxed
-    for (std::size_t a = 0; a < 6; ++a) c[a][b] = (dot(strain[a], force[b]) - dot(load[a], relaxed)) / volume;
-  }
-  return c;
+  return elastic_response(std::move(g), std::move(k), inverse, strain, network.packing.cell->measure());
 }
 
-VibrationModes vibration_modes(const SphereNetwork& network, NetworkLaw law,
-                               const std::vector<SphereStiffness>& stiffness, int count, bool displacements) {
+std::vector<double> dof_masses(const SphereNetwork& network, NetworkLaw law) {
   const Bodies<3>& bodies = network.packing.bodies;
   const int per_body = dof_layout(network, law, false).per_body;
   Vector mass;
@@ -147,17 +135,20 @@ VibrationModes vibration_modes(const SphereNetwork& network, NetworkLaw law,
     mass.insert(mass.end(), 3, bodies.mass[i]);
     if (per_body == 6) mass.insert(mass.end(), 3, bodies.inertia[i]);
   }
+  return mass;
+}
+
+VibrationModes vibration_modes(const SphereNetwork& network, NetworkLaw law,
+                               const std::vector<SphereStiffness>& stiffness, int count, bool displacements) {
+  const Vector mass = dof_masses(network, law);
   const RigidityMatrix g = in_contact_frames(network, rigidity_matrix(network, law, false));
   const Vector k = row_stiffness(g, stiffness);
   const std::vector<char> dependent = dependent_columns(network, law, false);
   VibrationModes modes;
-  modes.per_body = per_body;
+  modes.per_body = g.layout.per_body;
   modes.zero_modes = std::count(dependent.begin(), dependent.end(), 1);
-  LowestModes lowest =
-      lowest_modes(weighted_normal_matrix(g, k), dependent, std::move(mass), count, all_positive(k), displacements);
-  modes.converged = lowest.converged;
-  modes.displacement = std::move(lowest.vector);
-  for (const double lambda : lowest.value) modes.omega.push_back(lambda >= 0 ? std::sqrt(lambda) : -std::sqrt(-lambda));
+  take_modes(modes, lowest_modes(weighted_normal_matrix(g, k), dependent, mass, count, all_positive(k), true), mass,
+             displacements);
   return modes;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/rigidity/rigidity_matrix.hpp"
+#include "analysis/stiffness/elastic_response.hpp"
 #include "analysis/stiffness/sparse_cholesky.hpp"
 #include "analysis/stiffness/vibration.hpp"
 #include "dem/spheres/spheres.hpp"
@@ -40,11 +41,16 @@ SymmetricMatrix stiffness_matrix(const SphereNetwork& network, NetworkLaw law, b
 
 // dsigma_a / de_b for the strains 11, 22, 33, 23, 13, 12 (the last three shear angles gamma), compression positive,
 // every grain relaxed, at zero force. Throws FactorisationFailed if distant links make the rest singular. Needs a cell.
-using SphereModuli = std::array<std::array<double, 6>, 6>;
-SphereModuli elastic_moduli(const SphereNetwork& network, NetworkLaw law,
-                            const std::vector<SphereStiffness>& stiffness);
+using SphereModuli = ModuliTensor<6>;
+ElasticResponse<6> elastic_response(const SphereNetwork& network, NetworkLaw law,
+                                    const std::vector<SphereStiffness>& stiffness);
+inline SphereModuli elastic_moduli(const SphereNetwork& network, NetworkLaw law,
+                                   const std::vector<SphereStiffness>& stiffness) {
+  return elastic_response(network, law, stiffness).tensor;
+}
 
-// As of the plane: fixed cell, the `count` of smallest |omega| > 0.
+// As of the plane: diagonal of M; fixed cell, the `count` of smallest |omega| > 0.
+std::vector<double> dof_masses(const SphereNetwork& network, NetworkLaw law);
 VibrationModes vibration_modes(const SphereNetwork& network, NetworkLaw law,
                                const std::vector<SphereStiffness>& stiffness, int count, bool displacements);
 

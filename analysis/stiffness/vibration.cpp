@@ -10,6 +10,10 @@
 
 namespace isostat {
 
+namespace {
+constexpr double kDistantStiffness = 0.01;  // F0/D0 over K_N, as in the default scene
+}
+
 DiskLaw law_of(const AnalysisInput& input, const AnalysisOptions& options) {
   if (input.has_law() && !input.triangles) return input.state.law;
   DiskLaw law = default_network_law();
@@ -18,6 +22,7 @@ DiskLaw law_of(const AnalysisInput& input, const AnalysisOptions& options) {
     law.normal_stiffness = given[0];
     law.tangential_stiffness = given.size() > 1 ? given[1] : given[0];
     law.rolling_stiffness = given.size() > 2 ? given[2] : 1e-4 * given[0];
+    law.attraction_range = law.attraction / (kDistantStiffness * given[0]);
   }
   return law;
 }
@@ -36,6 +41,22 @@ std::vector<double> dof_masses(const LinkNetwork& network, NetworkLaw network_la
   return mass;
 }
 
+void take_modes(VibrationModes& modes, LowestModes lowest, const std::vector<double>& mass, bool displacements) {
+  modes.converged = lowest.converged;
+  for (const double lambda : lowest.value) modes.omega.push_back(lambda >= 0 ? std::sqrt(lambda) : -std::sqrt(-lambda));
+  const auto per_body = static_cast<std::size_t>(modes.per_body);
+  for (const std::vector<double>& u : lowest.vector) {
+    double squares = 0;
+    for (std::size_t first = 0; first < u.size(); first += per_body) {
+      double share = 0;  // they add up to 1
+      for (std::size_t c = first; c < first + per_body; ++c) share += mass[c] * u[c] * u[c];
+      squares += share * share;
+    }
+    modes.participation.push_back(static_cast<double>(per_body) / (static_cast<double>(u.size()) * squares));
+  }
+  if (displacements) modes.displacement = std::move(lowest.vector);
+}
+
 VibrationModes vibration_modes(const LinkNetwork& network, NetworkLaw network_law, const DiskLaw& law, int count,
                                bool displacements) {
   const RigidityMatrix g = rigidity_matrix(network, network_law, false);
@@ -44,14 +65,11 @@ VibrationModes vibration_modes(const LinkNetwork& network, NetworkLaw network_la
 
   VibrationModes modes;
   modes.per_body = g.layout.per_body;
-  std::vector<double> mass = dof_masses(network, network_law);
+  const std::vector<double> mass = dof_masses(network, network_law);
   modes.zero_modes = std::count(dependent.begin(), dependent.end(), 1);
   const bool definite = std::all_of(k.begin(), k.end(), [](double v) { return v > 0; });
-  LowestModes lowest =
-      lowest_modes(weighted_normal_matrix(g, k), dependent, std::move(mass), count, definite, displacements);
-  modes.converged = lowest.converged;
-  modes.displacement = std::move(lowest.vector);
-  for (double lambda : lowest.value) modes.omega.push_back(lambda >= 0 ? std::sqrt(lambda) : -std::sqrt(-lambda));
+  take_modes(modes, lowest_modes(weighted_normal_matrix(g, k), dependent, mass, count, definite, true), mass,
+             displacements);
   return modes;
 }
 

@@ -94,8 +94,8 @@ nlohmann::ordered_json small_pores(const AnalysisInput& input, const AnalysisOpt
 // Of the number of pores against R. By default from a/2: what three or four disks enclose is smaller, and its number
 // follows from how disks touch.
 nlohmann::ordered_json size_law_of(const AnalysisInput& input, const AnalysisOptions& options, const Pores& pores) {
-  const SizeLaw law = options.pore_window
-                          ? continuous_size_law(radii_of(pores), (*options.pore_window)[0], (*options.pore_window)[1])
+  const SizeLawFit law =
+      options.pore_window ? continuous_size_law(radii_of(pores), (*options.pore_window)[0], (*options.pore_window)[1])
                           : continuous_size_law(radii_of(pores), 0.5 * largest_diameter(input));
   return size_law_json(law);
 }

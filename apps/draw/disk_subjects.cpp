@@ -28,30 +28,29 @@ std::size_t grains_of(const AnalysisInput& input) { return static_cast<std::size
 
 RichText length_unit(const ForceReading& reading) { return reading.law_known ? rich("`a`") : RichText{}; }
 
-// The name of the scale of forces, and how wide a link of that force is.
+// The scale of forces, its name, and how wide a link of that force is.
 struct ForceScaleMarks {
-  RichText label;
-  double width_at_scale = kWidthAtF0;  // [a]
+  double scale = 1;
+  RichText label;                      // empty: written as a number
+  double width_at_scale = kWidthAtAP;  // [a]
 };
-ForceScaleMarks force_scale_marks(const AnalysisInput& input, const ForceReading& reading, double scale) {
-  if (!reading.law_known) return {number_text(scale), kWidthAtAP};  // the scale is a mean force
+ForceScaleMarks force_scale_marks(const Arguments& arguments, const AnalysisInput& input, const ForceReading& reading,
+                                  double scale) {
+  const auto given = arguments.number("--scale");
+  if (!reading.law_known) return {given.value_or(scale), {}};  // else of a mean force
   const bool by_attraction = input.state.law.attraction >= scale;
   const bool by_stress = !(heaviest_weight(input.packing(), input.state.scene.gravity) >= scale);
-  return {by_attraction ? rich("`F`_{0}")
-          : by_stress   ? rich("`aP`")
-                        : plain("heaviest weight"),
-          by_attraction ? kWidthAtF0 : kWidthAtAP};
+  const double width = by_attraction ? kWidthAtF0 : kWidthAtAP;
+  if (given) return {*given, {}, width};
+  return {scale, by_attraction ? rich("`F`_{0}") : by_stress ? rich("`aP`") : plain("heaviest weight"), width};
 }
 
 Content forces(const Arguments& arguments, const AnalysisInput& input, const ForceReading& reading, double scale) {
   if (!reading.known) throw InputError(input.path, 0, "--what", "forces", "this file gives no forces; draw grains");
   ForceOptions options;
   options.convention = convention_of(arguments);
-  options.scale = scale;
-  if (reading.law_known) {
-    const ForceScaleMarks marks = force_scale_marks(input, reading, scale);
-    options.scale_label = marks.label, options.width_at_scale = marks.width_at_scale;
-  }
+  const ForceScaleMarks marks = force_scale_marks(arguments, input, reading, scale);
+  options.scale = marks.scale, options.scale_label = marks.label, options.width_at_scale = marks.width_at_scale;
   if (!reading.cohesive) {
     const Coordination c = coordination(input.packing(), reading);
     options.rattler.assign(c.rattler.begin(), c.rattler.end());
@@ -95,9 +94,8 @@ Content stressed(const Arguments& arguments, const AnalysisInput& input, const F
   const double threshold = arguments.number("--threshold").value_or(0.01 * reading.scale);
   const auto found = stressed_clusters(input.packing(), options.width, threshold);
   options.of_grain = found.of_body, options.of_link = found.of_link, options.clusters = found.clusters.size();
-  options.scale = scale;
-  const ForceScaleMarks marks = force_scale_marks(input, reading, scale);
-  options.scale_label = marks.label, options.width_at_scale = marks.width_at_scale;
+  const ForceScaleMarks marks = force_scale_marks(arguments, input, reading, scale);
+  options.scale = marks.scale, options.scale_label = marks.label, options.width_at_scale = marks.width_at_scale;
   options.below = plain("below ") + number_text(threshold);
   return stressed_content(std::move(options));
 }

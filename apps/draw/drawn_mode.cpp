@@ -1,6 +1,7 @@
 #include "analysis/figure/nice_numbers.hpp"
 #include "analysis/figure/picture_pen.hpp"
 #include "analysis/stiffness/pseudo_inverse.hpp"
+#include "apps/analysis_options.hpp"
 #include "apps/draw/subjects.hpp"
 #include "dem/input_error.hpp"
 
@@ -11,7 +12,11 @@ DrawnMode drawn_mode(const Arguments& arguments, const AnalysisInput& input, con
   const auto refuse = [&](const std::string& why) { throw InputError(input.path, 0, "--what", "modes", why); };
   VibrationModes modes;
   try {
-    modes = vibration_modes(input.network(), input.network_law({}), law_of(input), number, true);
+    const AnalysisOptions options = reading_options(arguments);
+    if (input.has_law() && !options.stiffness.empty())
+      throw InputError(input.path, 0, "--stiffness", *arguments.value("--stiffness"),
+                       "is for packings without a law, and this one has its own");
+    modes = vibration_modes(input.network(), input.network_law({}), law_of(input, options), number, true);
   } catch (const std::length_error& error) {
     refuse(error.what());
   } catch (const FactorisationFailed& error) {

@@ -27,7 +27,8 @@ struct Series {
 Series series_of(const Arguments& arguments, const std::vector<AnalysisInput>& inputs) {
   Series series;
   for (const AnalysisInput& input : inputs) {
-    State<Spheres> state = input.spheres_state.value_or(State<Spheres>{});
+    State<Spheres> state;
+    if (input.spheres_state) state = *input.spheres_state;
     static_cast<Packing<3>&>(state.packing) = *input.packing_3d;
     if (state.packing.bodies.size() == 0) throw InputError(input.path, 0, "", "", "has no grains to draw");
     series.readings.push_back(read_forces(input));
@@ -54,11 +55,13 @@ ForceOptions force_options(const Arguments& arguments, const Series& series, std
   options.convention = convention_of(arguments);
   options.scale = series.force;
   options.diameter = 2 * series.radius;
+  options.width_at_scale = kSphereWidthAtAP;  // without a law of a mean force
   if (series.law_known) {
     const bool by_attraction = series.states[k].law.attraction >= series.force;
     options.scale_label = by_attraction ? rich("`F`_{0}") : rich("`a`^{2}`P`");
-    options.width_at_scale = by_attraction ? kWidthAtF0 : kSphereWidthAtAP;
+    if (by_attraction) options.width_at_scale = kWidthAtF0;
   }
+  if (const auto given = arguments.number("--scale")) options.scale = *given, options.scale_label = {};
   if (!series.readings[k].cohesive) {
     const Coordination c = coordination<3>(series.states[k].packing, series.readings[k]);
     options.rattler.assign(c.rattler.begin(), c.rattler.end());

@@ -33,7 +33,7 @@ std::vector<Content> forces(const Arguments& arguments, const std::vector<Analys
   for (const AnalysisInput& input : inputs)
     if (const double mean = mean_overlap_force(grains_of(input)); mean > 0) means.push_back(mean);
   std::sort(means.begin(), means.end());
-  options.scale = means.empty() ? 0 : means[means.size() / 2];
+  options.scale = arguments.number("--scale").value_or(means.empty() ? 0 : means[means.size() / 2]);
   std::vector<Content> contents;
   for (std::size_t k = 0; k < inputs.size(); ++k) contents.push_back(triangle_forces_content(options));
   return contents;

@@ -10,6 +10,7 @@
 #include "analysis/report.hpp"
 #include "dem/disks/scales.hpp"
 #include "dem/scene/text.hpp"
+#include "dem/triangles/time_step.hpp"
 #include "dem/triangles/touching_triangles.hpp"
 
 namespace isostat {
@@ -37,7 +38,7 @@ void scales_of(const Scene& scene, const State<TriangleGrains>& state, std::ostr
   const std::size_t walls = state.packing.grains.size() - static_cast<std::size_t>(b.grains);
   out << b.grains << " grains of " << b.triangles << " triangles";
   if (walls > 0) out << ", " << walls << " grains of walls";
-  out << "  omega_max " << text(scene.step.fraction / state.time_step) << " 1/s  dt " << text(state.time_step)
+  out << "  omega_max " << text(triangle_step_fraction(scene) / state.time_step) << " 1/s  dt " << text(state.time_step)
       << " s; units cm, g, s\n";
 }
 

@@ -69,6 +69,8 @@ class SetMaker {
     for (const Setting& s : settings)
       if (std::find(study_.keys.begin(), study_.keys.end(), s.key) == study_.keys.end()) study_.keys.push_back(s.key);
     std::optional<Scene> scene = resolved(set, settings);
+    if (scene && row.all_stages)
+      for (std::size_t k = 0; k < scene->stages.size(); ++k) set.stages.push_back(k);
     if (scene && !set.stages.empty() && check_stages(row, set.name, set.stages, scene->stages.size() - 1)) {
       std::erase_if(settings, [](const Setting& s) { return s.key == kStatesKey; });
       settings.push_back({kStatesKey, "true", row.line});

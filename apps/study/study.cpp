@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "apps/study/derived_columns.hpp"
 #include "apps/study/parameter_sets.hpp"
 #include "apps/study/study_file.hpp"
 #include "dem/scene/keys.hpp"
@@ -29,6 +30,7 @@ Study read_study(const std::string& path) {
   study.path = path;
   study.analysis = file.analysis;
   make_parameter_sets(file, study, faults);
+  make_derived_columns(file, study, faults);
   faults.raise();
   return study;
 }
@@ -78,6 +80,32 @@ std::string value_of(const ParameterSet& set, const std::string& name) {
     }
   }
   return given == set.settings.end() ? "" : unquoted(given->second);
+}
+
+std::string stage_value(const ParameterSet& set, std::optional<std::size_t> stage, const std::string& column) {
+  const std::size_t last = set.scene.stages.size() - 1;
+  for (const SceneKey& key : scene_keys(set.scene.system))
+    if (key.name == column && applies(key, set.scene)) return value_text(key, set.scene, stage.value_or(last));
+  return "";
+}
+
+std::vector<std::string> stage_columns(const Study& study) {
+  std::vector<std::string> columns;
+  for (const SceneKey& key : scene_keys()) {
+    if (!belongs_to_stage(key)) continue;
+    std::string first;
+    bool any = false, differs = false;
+    for (const ParameterSet& set : study.sets)
+      for (const auto stage : analysed_stages(set)) {
+        const std::string value = stage_value(set, stage, std::string(key.name));
+        differs = differs || (any && value != first);
+        if (!any) first = value;
+        any = true;
+      }
+    const std::string name(key.name);
+    if (differs && std::find(columns.begin(), columns.end(), name) == columns.end()) columns.push_back(name);
+  }
+  return columns;
 }
 
 std::string first_difference(const Scene& there, const Scene& here) {

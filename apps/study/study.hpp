@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/input.hpp"
+#include "apps/study/derived.hpp"
 #include "dem/scene/scene.hpp"
 
 namespace isostat {
@@ -32,6 +33,8 @@ struct Study {
   std::vector<ParameterSet> sets;
   std::vector<std::string> keys;  // scene keys that the study sets, in order of appearance
   StudyAnalysis analysis;
+  std::vector<DerivedColumn> derived;
+  std::vector<PathSlope> slopes;
 };
 
 // Throws one InputError with every fault: of the study's own keys, and of the scenes that its settings make.
@@ -59,6 +62,11 @@ std::vector<std::optional<std::size_t>> analysed_stages(const ParameterSet& set)
 
 // The value of a scene key in a set as plain text: without quotes, empty where it does not apply.
 std::string value_of(const ParameterSet& set, const std::string& key);
+
+// Numbers of the stage after which a state is analysed, as `stage.pressure`: of its scene keys those that differ
+// between the rows of the table.
+std::vector<std::string> stage_columns(const Study& study);
+std::string stage_value(const ParameterSet& set, std::optional<std::size_t> stage, const std::string& column);
 
 // The first scene key in which two scenes differ, as "KEY = THERE, not HERE"; empty if they are the same.
 std::string first_difference(const Scene& there, const Scene& here);

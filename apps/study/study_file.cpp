@@ -50,6 +50,8 @@ class StudyParser {
     read_top();
     read_rows();
     read_grid();
+    read_derived();
+    read_slopes();
     return std::move(file_);
   }
 
@@ -69,7 +71,8 @@ class StudyParser {
   // --- the keys of the study itself ---
 
   void read_top() {
-    const std::vector<std::string> known{"scene", "seeds", "stages", "analyze", "analysis", "set", "row", "grid"};
+    const std::vector<std::string> known{"scene", "seeds", "stages", "analyze", "analysis",
+                                         "set",   "row",   "grid",   "derived", "slope"};
     std::vector<std::string> sections{"counts"};
     for (const auto& [name, node] : table_) {
       const std::string key(name.str());
@@ -78,14 +81,15 @@ class StudyParser {
       } else if (key == "seeds") {
         seeds_ = seeds_of(node, key);
       } else if (key == "stages") {
-        stages_ = stages_of(node, key);
+        all_stages_ = is_all(node);
+        if (!all_stages_) stages_ = stages_of(node, key);
       } else if (key == "analyze") {
         sections = sections_of(node, key);
       } else if (key == "analysis") {
         read_options(node, file_.analysis.options);
       } else if (key == "set") {
         read_settings(node, key, set_);
-      } else if (key != "row" && key != "grid") {
+      } else if (key != "row" && key != "grid" && key != "derived" && key != "slope") {
         unknown(line_of(node), key, known);
       }
     }
@@ -129,8 +133,9 @@ class StudyParser {
 
   std::vector<std::size_t> stages_of(const toml::node& node, const std::string& key) {
     if (const auto* one = node.as_integer(); one && one->get() >= 0) return {static_cast<std::size_t>(one->get())};
-    return distinct_integers<std::size_t>(node, key, "a stage or a list of different stages, counted from 0");
+    return distinct_integers<std::size_t>(node, key, "a stage, a list of different stages, counted from 0, or \"all\"");
   }
+  static bool is_all(const toml::node& node) { return node.value<std::string>() == "all"; }
 
   std::vector<std::string> sections_of(const toml::node& node, const std::string& key) {
     std::vector<std::string> names, known;
@@ -256,7 +261,9 @@ class StudyParser {
     if (node && (!array || array->empty() || !array->is_array_of_tables()))
       return fault(line_of(*node), "row", "", "rows are an array of tables: write [[row]]");
     for (std::size_t k = 0; array && k < array->size(); ++k) read_row(*array->get_as<toml::table>(k));
-    if (!node) file_.rows.push_back({std::filesystem::path(scene_).stem().string(), scene_, set_, seeds_, stages_, 0});
+    if (!node)
+      file_.rows.push_back(
+          {std::filesystem::path(scene_).stem().string(), scene_, set_, seeds_, stages_, all_stages_, 0});
     for (const StudyRow& row : file_.rows) {
       if (row.scene.empty() && !table_.contains("scene"))
         fault(row.line, "scene", "", "missing: the scene file, at the top or in the row");
@@ -267,7 +274,7 @@ class StudyParser {
 
   void read_row(const toml::table& table) {
     const std::vector<std::string> known{"name", "scene", "seeds", "stages"};
-    StudyRow row{"", scene_, {}, seeds_, stages_, line_of(table)};
+    StudyRow row{"", scene_, {}, seeds_, stages_, all_stages_, line_of(table)};
     for (const auto& [name, node] : table) {
       const std::string key(name.str());
       if (key == "name") {
@@ -280,7 +287,8 @@ class StudyParser {
       } else if (key == "seeds") {
         row.seeds = seeds_of(node, key);
       } else if (key == "stages" || (key == "stage" && !node.is_table())) {
-        row.stages = stages_of(node, key);
+        row.all_stages = is_all(node);
+        row.stages = row.all_stages ? std::vector<std::size_t>{} : stages_of(node, key);
       } else if (key.find('.') == std::string::npos && !node.is_table() && key != "seed") {
         unknown(line_of(node), key, known);
       } else {
@@ -321,6 +329,45 @@ class StudyParser {
     });
   }
 
+  // --- what is computed from the numbers of the samples ---
+
+  void read_derived() {
+    const toml::node* node = table_.get("derived");
+    if (!node) return;
+    const toml::table* table = node->as_table();
+    if (!table) return fault(line_of(*node), "derived", literal(*node), "is a table: write [derived]");
+    for (const auto& [name, value] : *table)
+      file_.derived.push_back(
+          {std::string(name.str()), text_of(value, "derived." + std::string(name.str())), line_of(value)});
+    std::sort(file_.derived.begin(), file_.derived.end(),
+              [](const DerivedText& a, const DerivedText& b) { return a.line < b.line; });
+  }
+
+  void read_slopes() {
+    const toml::node* node = table_.get("slope");
+    if (!node) return;
+    const toml::array* array = node->as_array();
+    if (!array || array->empty() || !array->is_array_of_tables())
+      return fault(line_of(*node), "slope", "", "slopes are an array of tables: write [[slope]]");
+    for (std::size_t k = 0; k < array->size(); ++k) {
+      const toml::table& table = *array->get_as<toml::table>(k);
+      SlopeText slope;
+      slope.line = line_of(table);
+      for (const auto& [name, value] : table) {
+        const std::string leaf(name.str()), key = "slope." + leaf;
+        if (leaf == "stages")
+          slope.stages = stages_of(value, key);
+        else if (leaf == "name" || leaf == "x" || leaf == "y")
+          (leaf == "name" ? slope.name : leaf == "x" ? slope.x : slope.y) = text_of(value, key);
+        else
+          unknown(line_of(value), key, {"slope.name", "slope.x", "slope.y", "slope.stages"});
+      }
+      for (const char* leaf : {"name", "x", "y", "stages"})
+        if (!table.contains(leaf)) fault(slope.line, std::string("slope.") + leaf, "", "missing");
+      file_.slopes.push_back(std::move(slope));
+    }
+  }
+
   StudyFaults& faults_;
   StudyFile file_;
   toml::table table_;
@@ -328,6 +375,7 @@ class StudyParser {
   std::string scene_;
   std::vector<std::uint64_t> seeds_;
   std::vector<std::size_t> stages_;
+  bool all_stages_ = false;
   std::vector<Setting> set_;
 };
 

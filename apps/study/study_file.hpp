@@ -23,6 +23,7 @@ struct StudyRow {
   std::vector<Setting> settings;
   std::vector<std::uint64_t> seeds;
   std::vector<std::size_t> stages;
+  bool all_stages = false;  // of the scene, whatever their number
   int line = 0;
 };
 
@@ -31,10 +32,23 @@ struct GridAxis {
   std::vector<Setting> choices;
 };
 
+// Expressions of columns, not yet read (derived_columns.hpp).
+struct DerivedText {
+  std::string name, of;
+  int line = 0;
+};
+struct SlopeText {
+  std::string name, x, y;
+  std::vector<std::size_t> stages;
+  int line = 0;
+};
+
 struct StudyFile {
   std::vector<StudyRow> rows;
   std::vector<GridAxis> grid;
   StudyAnalysis analysis;
+  std::vector<DerivedText> derived;  // in the order of the file
+  std::vector<SlopeText> slopes;
 };
 
 // Reads faults.path(); adds what is wrong with its keys to the faults. Throws InputError if it is no TOML.

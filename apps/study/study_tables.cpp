@@ -1,6 +1,8 @@
 #include "apps/study/study_tables.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -10,6 +12,7 @@
 #include "analysis/version.hpp"
 #include "apps/json_output.hpp"
 #include "apps/study/state_report.hpp"
+#include "dem/scene/keys.hpp"
 #include "dem/scene/text.hpp"
 
 namespace isostat {
@@ -23,8 +26,10 @@ struct Ensemble {
   const ParameterSet* set = nullptr;
   std::optional<std::size_t> stage;
   std::string name;
-  std::vector<std::string> states;  // file names
-  Json report;                      // merged; null without samples
+  std::vector<std::string> states;     // file names
+  std::vector<std::uint64_t> seeds;    // of the samples,
+  std::vector<SampleNumbers> numbers;  // and their numbers
+  Json report;                         // merged; null without samples
   std::vector<std::pair<std::string, Json>> scalars;
 };
 
@@ -40,12 +45,36 @@ Json only_sections(const Json& report, const std::vector<std::string>& sections)
   return kept;
 }
 
+// Those of its report, of the scene keys that the study sets, and of the stage.
+SampleNumbers numbers_of(const Study& study, const ParameterSet& set, std::optional<std::size_t> stage,
+                         const Json& report) {
+  SampleNumbers numbers;
+  const auto add = [&numbers](const std::string& name, const std::string& text) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error == std::errc{} && end == text.data() + text.size()) numbers[name] = value;
+  };
+  for (const SceneKey& key : scene_keys(set.scene.system)) {
+    const std::string name(key.name);
+    add(name, belongs_to_stage(key) ? stage_value(set, stage, name) : value_of(set, name));
+  }
+  for (const auto& [name, value] : report_scalars(report))
+    if (value.is_number()) numbers[name] = value.get<double>();
+  add_derived(study.derived, numbers);
+  return numbers;
+}
+
+Json statistic_json(const Statistic& s) {
+  const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(); };
+  return {{"mean", number(s.mean)}, {"sd", number(s.sd)}, {"se", number(s.se)}, {"n", s.n}};
+}
+
 std::vector<Ensemble> ensembles_of(const Study& study, const std::vector<StudyRun>& runs,
                                    const std::vector<RunRecord>& records) {
   std::vector<Ensemble> all;
   for (const ParameterSet& set : study.sets)
     for (const auto stage : analysed_stages(set)) {
-      Ensemble e{&set, stage, set.name + (stage ? ".stage" + std::to_string(*stage) : ""), {}, {}, {}};
+      Ensemble e{&set, stage, set.name + (stage ? ".stage" + std::to_string(*stage) : ""), {}, {}, {}, {}, {}};
       std::vector<Json> reports;
       for (std::size_t k = 0; k < runs.size(); ++k) {
         if (runs[k].set != &set || records[k].status != RunStatus::ok) continue;
@@ -53,8 +82,15 @@ std::vector<Ensemble> ensembles_of(const Study& study, const std::vector<StudyRu
         if (!report || !has_sections(*report, study.analysis.sections)) continue;
         reports.push_back(only_sections(*report, study.analysis.sections));
         e.states.push_back(fs::path(runs[k].state(stage)).filename().string());
+        e.seeds.push_back(runs[k].seed);
+        e.numbers.push_back(numbers_of(study, set, stage, reports.back()));
       }
       if (!reports.empty()) e.report = merge_reports(reports), e.scalars = report_scalars(e.report);
+      for (const DerivedColumn& column : study.derived) {
+        std::vector<double> values;
+        for (const SampleNumbers& numbers : e.numbers) values.push_back(numbers.at(column.name));
+        e.scalars.emplace_back(column.name, statistic_json(statistic(values)));
+      }
       all.push_back(std::move(e));
     }
   return all;
@@ -74,8 +110,10 @@ std::string study_csv(const Study& study, const std::vector<Ensemble>& ensembles
       error_bar[key] = error_bar[key] || has_error_bar(value);
     }
   }
+  const std::vector<std::string> of_stage = stages ? stage_columns(study) : std::vector<std::string>();
   std::string text = "row";
   if (stages) text += ",stage";
+  for (const std::string& key : of_stage) text += "," + key;
   if (scenes) text += ",scene";
   for (const std::string& key : study.keys) text += "," + csv_field(key);
   text += ",runs,n";
@@ -84,6 +122,7 @@ std::string study_csv(const Study& study, const std::vector<Ensemble>& ensembles
   for (const Ensemble& e : ensembles) {
     text += csv_field(e.set->name);
     if (stages) text += "," + (e.stage ? std::to_string(*e.stage) : std::string());
+    for (const std::string& key : of_stage) text += "," + csv_field(stage_value(*e.set, e.stage, key));
     if (scenes) text += "," + csv_field(scene_name(*e.set));
     for (const std::string& key : study.keys) text += "," + csv_field(value_of(*e.set, key));
     text += "," + std::to_string(e.set->seeds.size()) + "," + std::to_string(e.states.size());
@@ -97,6 +136,28 @@ std::string study_csv(const Study& study, const std::vector<Ensemble>& ensembles
     }
     text += '\n';
   }
+  return text;
+}
+
+// A line a parameter set and slope: the mean over the samples whose stages are all there.
+std::string slopes_csv(const Study& study, const std::vector<Ensemble>& ensembles) {
+  std::string text = "row,slope,stages,n,mean,sd,se\n";
+  for (const ParameterSet& set : study.sets)
+    for (const PathSlope& slope : study.slopes) {
+      std::map<std::uint64_t, std::vector<const SampleNumbers*>> stages_of_sample;
+      for (const Ensemble& e : ensembles)
+        if (e.set == &set && e.stage && std::count(slope.stages.begin(), slope.stages.end(), *e.stage))
+          for (std::size_t k = 0; k < e.seeds.size(); ++k) stages_of_sample[e.seeds[k]].push_back(&e.numbers[k]);
+      std::vector<double> values;
+      for (const auto& [seed, stages] : stages_of_sample)
+        if (stages.size() == slope.stages.size()) values.push_back(slope_of(slope, stages));
+      const Statistic s = statistic(values);
+      std::string stages;
+      for (const std::size_t stage : slope.stages) stages += (stages.empty() ? "" : " ") + std::to_string(stage);
+      text += csv_field(set.name) + "," + slope.name + "," + stages + "," + std::to_string(s.n);
+      for (const char* key : {"mean", "sd", "se"}) text += "," + csv_field(statistic_json(s)[key]);
+      text += '\n';
+    }
   return text;
 }
 
@@ -175,6 +236,7 @@ TableFiles study_tables(const Study& study, const std::vector<StudyRun>& runs, c
     tables.files.emplace_back((fs::path(directory) / name).string(), std::move(text));
   };
   add("study.csv", study_csv(study, ensembles));
+  if (!study.slopes.empty()) add("slopes.csv", slopes_csv(study, ensembles));
   add("runs.csv", runs_csv(json["runs"]));
   add("study.json", json_text(json, 1));
   return tables;

@@ -101,7 +101,7 @@ std::size_t loaded_contacts(const State<Disks>& s) {
 Certificate evaluate_certificate(const State<Disks>& state) {
   Certificate c = evaluate_certificate(state.packing, state.law, state.imposed_stress, state.scene.equilibrium,
                                        state.scene.gravity);
-  c.finishing = state.certificate.finishing;
+  keep_record(c, state.certificate);
   c.moving = std::max(c.moving, state.certificate.moving);  // a static solve knows of slower ones
   return c;
 }

@@ -7,6 +7,7 @@
 
 #include "dem/disks/density.hpp"
 #include "dem/disks/scales.hpp"
+#include "dem/sample/grain_sizes.hpp"
 #include "dem/scene/text.hpp"
 #include "dem/state/container_region.hpp"
 
@@ -18,11 +19,15 @@ constexpr double kLargestOverlap = 0.1;  // [smallest diameter] static overlap F
 
 bool contained(const Scene& scene) { return scene.container.shape != ContainerShape::none; }
 
-// Sum of pi d^2/4 with the mean square of a uniform diameter.
-double area_of_grains(const GrainsScene& g) {
-  const double mean_square = (g.diameter_min * (g.diameter_min + g.diameter_max) + g.diameter_max * g.diameter_max) / 3;
-  return g.count * std::numbers::pi / 4 * mean_square;
+// Whether the grains are known before they are read from a file or table.
+bool sizes_known(const GrainsScene& g) {
+  return g.file.empty() && (g.arrangement == Arrangement::collision || g.law() != SizeLaw::table);
 }
+
+// Sum of pi d^2/4 to be expected, of known sizes.
+double area_of_grains(const GrainsScene& g) { return g.count * std::numbers::pi / 4 * GrainSizes(g, 2).mean_power(2); }
+
+double density_of_large(const GrainsScene& g) { return g.law() == SizeLaw::bidisperse ? g.density_ratio : 1; }
 
 // Longer edge of the container or of the initial cell, L1 L2 = sum pi d^2/4 / Phi_I.
 double longest_edge(const Scene& scene) {
@@ -34,13 +39,21 @@ double longest_edge(const Scene& scene) {
 
 double smallest_diameter(const Scene& scene) {
   const GrainsScene& g = scene.grains;
-  return !g.file.empty() ? 1.0 : is_collision(scene) ? g.diameter_max : g.diameter_min;
+  return !g.file.empty() ? 1.0 : is_collision(scene) || !sizes_known(g) ? g.diameter_max : g.diameter_min;
 }
 
 double largest_diameter(const Scene& scene) { return scene.grains.file.empty() ? scene.grains.diameter_max : 1.0; }
 
-// Weight of the largest grain [F0].
-double heaviest(const Scene& scene) { return largest_diameter(scene) * largest_diameter(scene) * scene.gravity; }
+// [m] of the heaviest grain, as far as it is known.
+double largest_mass(const Scene& scene) {
+  const double d = largest_diameter(scene), mass = d * d;
+  if (!scene.grains.file.empty() || is_collision(scene)) return mass;
+  const double small = smallest_diameter(scene);
+  return std::max(mass * density_of_large(scene.grains), small * small);
+}
+
+// Weight of the heaviest grain [F0].
+double heaviest(const Scene& scene) { return largest_mass(scene) * scene.gravity; }
 
 // F1 [F0] of a stage, a = 1.
 double largest_force(const Scene& scene, const StageScene& stage) {
@@ -52,11 +65,8 @@ double largest_force(const Scene& scene, const StageScene& stage) {
 
 void check_grains(const Scene& scene, std::vector<SceneConflict>& found) {
   const GrainsScene& g = scene.grains;
-  if (g.file.empty() && !is_collision(scene) && g.diameter_min > g.diameter_max)
-    found.push_back({"grains.diameter_min",
-                     real_text(g.diameter_min),
-                     "at most grains.diameter_max = " + real_text(g.diameter_max),
-                     {"grains.diameter_min", "grains.diameter_max"}});
+  if (g.file.empty() && !is_collision(scene))
+    for (SceneConflict& c : size_conflicts(g, 2)) found.push_back(std::move(c));
 }
 
 // Contacts must be stiff against the forces of the run, and soft against the rounding of coordinates.
@@ -65,7 +75,7 @@ void check_stiffness(const Scene& scene, std::vector<SceneConflict>& found) {
   for (std::size_t i = 0; i < scene.stages.size(); ++i)
     if (const auto& k = scene.stages[i].normal_stiffness)
       stiffnesses.emplace_back(stage_key(i, "normal_stiffness"), *k);
-  const bool random = scene.grains.file.empty() && !is_collision(scene);
+  const bool random = sizes_known(scene.grains) && !is_collision(scene);
   double largest = scene.law.attraction, smallest = std::numeric_limits<double>::infinity();
   std::vector<std::string> involved{"law.normal_stiffness", "law.attraction", "grains.diameter_min", "gravity"};
   for (std::size_t i = 0; i < scene.stages.size(); ++i) {
@@ -103,32 +113,32 @@ void check_stiffness(const Scene& scene, std::vector<SceneConflict>& found) {
 }
 
 void check_step(const Scene& scene, std::vector<SceneConflict>& found) {
+  if (!scene.step.fraction) return;
   const DiskLaw law = resolve(scene.law);
   const double smallest = smallest_diameter(scene), largest = largest_diameter(scene);
-  const double bound = critical_time_step(law, smallest) / time_step(law, 1.0, largest);
-  if (scene.step.fraction >= bound)
+  const double critical =
+      std::min(critical_time_step(law, smallest),
+               critical_time_step(law, largest, largest * largest * density_of_large(scene.grains)));
+  const double bound = critical / time_step(law, 1.0, largest_mass(scene));
+  if (*scene.step.fraction >= bound)
     found.push_back({"step.fraction",
-                     real_text(scene.step.fraction),
+                     real_text(*scene.step.fraction),
                      "unstable for the smallest grain of this law; below " + real_text(bound) +
-                         (bound > 0.06 ? ", 0.06 is the reference" : " (set by grains.diameter_min)"),
-                     {"step.fraction", "grains.diameter_min", "grains.diameter_max", "law.normal_stiffness",
-                      "law.tangential_stiffness", "law.rolling_stiffness", "law.friction", "law.rolling_friction"}});
+                         (bound > 0.06 ? ", 0.06 is the reference" : " (set by grains.diameter_min)") +
+                         ", or without this key as the grains bear",
+                     {"step.fraction", "grains.diameter_min", "grains.diameter_max", "grains.sizes",
+                      "grains.density_ratio", "law.normal_stiffness", "law.tangential_stiffness",
+                      "law.rolling_stiffness", "law.friction", "law.rolling_friction"}});
 }
 
-// Without cohesion some ends and units have no meaning.
+// Without cohesion some ends have no meaning.
 void check_cohesion(const Scene& scene, std::vector<SceneConflict>& found) {
   if (scene.law.attraction > 0) return;
   for (std::size_t i = 0; i < scene.stages.size(); ++i) {
     const StageScene& s = scene.stages[i];
-    const std::string until = stage_key(i, "until"), velocity = stage_key(i, "velocity"),
-                      pressure = stage_key(i, "pressure");
+    const std::string until = stage_key(i, "until"), pressure = stage_key(i, "pressure");
     if (s.until == Until::aggregated)
       found.push_back({until, quoted_text(name(s.until)), "needs law.attraction > 0", {until, "law.attraction"}});
-    if (s.velocity > 0)
-      found.push_back({velocity,
-                       real_text(s.velocity),
-                       "0, since law.attraction is 0: the unit V* = sqrt(F0 D0 / m) vanishes",
-                       {velocity, "law.attraction"}});
     if (waits_for_equilibrium(s.until) && !(largest_force(scene, s) > 0))
       found.push_back({pressure,
                        s.pressure ? real_text(*s.pressure) : "",
@@ -141,7 +151,7 @@ void check_cohesion(const Scene& scene, std::vector<SceneConflict>& found) {
 
 // The grains at the bottom of a container carry those above them.
 void check_bed(const Scene& scene, std::vector<SceneConflict>& found) {
-  if (!contained(scene) || !scene.grains.file.empty()) return;
+  if (!contained(scene) || !sizes_known(scene.grains)) return;
   const ContainerScene& c = scene.container;
   const double depth = height_of_area(c, area_of_grains(scene.grains) / kPackedFraction) - region_bottom(c);
   const double load = heaviest(scene) * std::max(1.0, depth / scene.grains.diameter_max);
@@ -165,14 +175,15 @@ void check_surroundings(const Scene& scene, std::vector<SceneConflict>& found) {
                      quoted_text("newton"),
                      "static solves know neither weight nor walls: \"none\" or \"drag\" with a container",
                      {"finish.method", "container.shape", "gravity"}});
-  if (!scene.grains.file.empty()) return;  // its grains say the time step
   const GrainsScene& g = scene.grains;
+  if (!g.file.empty()) return;
   if (!is_collision(scene) && g.solid_fraction > kDensestAtRandom)
     found.push_back({"grains.solid_fraction",
                      real_text(g.solid_fraction),
                      "at most " + real_text(kDensestAtRandom) + " in a container, where disks are placed at random",
                      {"grains.solid_fraction", "container.shape"}});
-  const double dt = time_step(resolve(scene.law), scene.step.fraction, g.diameter_max);
+  if (!scene.step.fraction || !sizes_known(g)) return;  // the grains say the time step
+  const double dt = time_step(resolve(scene.law), *scene.step.fraction, largest_mass(scene));
   for (SceneConflict& c : wall_motion_conflicts(scene, dt, g.diameter_min)) found.push_back(std::move(c));
 }
 

@@ -108,7 +108,7 @@ void add_container(State<Disks>& s) {
     b.radius[body] = 0.5 * c.wall_size;
     s.packing.part[body] = walls[k].part;
   }
-  set_disk_inertia(b);
+  set_disk_inertia(b, grains);
 }
 
 }  // namespace isostat

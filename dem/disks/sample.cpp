@@ -8,9 +8,11 @@
 #include "dem/disks/container.hpp"
 #include "dem/disks/density.hpp"
 #include "dem/disks/scales.hpp"
-#include "dem/files/packing_file.hpp"
 #include "dem/input_error.hpp"
+#include "dem/sample/grain_sizes.hpp"
+#include "dem/sample/grains_file.hpp"
 #include "dem/sample/hard_gas.hpp"
+#include "dem/sample/push_apart.hpp"
 #include "dem/sample/random_placement.hpp"
 #include "dem/scene/check.hpp"
 #include "dem/scene/text.hpp"
@@ -28,13 +30,27 @@ constexpr double kBeforeGrowth = 0.4;  // [-] solid fraction at which the disks 
 
 }  // namespace
 
-void set_disk_inertia(Bodies<2>& b) {
-  for (std::size_t k = 0; k < b.size(); ++k) {
+void set_disk_inertia(Bodies<2>& b, std::size_t first) {
+  for (std::size_t k = first; k < b.size(); ++k) {
     const double d = 2 * b.radius[k];
     b.mass[k] = d * d;
     b.inertia[k] = b.mass[k] * d * d / 8;
   }
 }
+
+namespace {
+
+// c of a scene that leaves it open: the reference, and less where small or light grains bring the bound near.
+// Production goes up to three fifths of the bound, 0.12 at the sizes of the paper.
+double step_fraction(const Scene& scene, double normal_stiffness, double heaviest, const Packing<2>& packing) {
+  constexpr double kReference = 0.06, kOfBound = 0.5;
+  LawScene law = scene.law;
+  law.normal_stiffness = normal_stiffness;
+  const double bound = critical_time_step(resolve(law), packing) / std::sqrt(heaviest / normal_stiffness);
+  return std::min(kReference, kOfBound * bound);
+}
+
+}  // namespace
 
 double time_step(const Scene& scene, double normal_stiffness, const Packing<2>& packing) {
   const std::vector<double>& mass = packing.bodies.mass;
@@ -42,7 +58,8 @@ double time_step(const Scene& scene, double normal_stiffness, const Packing<2>& 
   for (std::size_t k = 0; k < mass.size(); ++k)
     if (is_free(packing.part, k)) heaviest = std::max(heaviest, mass[k]);
   for (std::size_t k = 0; k < mass.size() && !(heaviest > 0); ++k) heaviest = mass[k];  // all grains have left
-  return scene.step.fraction * std::sqrt(heaviest / normal_stiffness);
+  return scene.step.fraction.value_or(step_fraction(scene, normal_stiffness, heaviest, packing)) *
+         std::sqrt(heaviest / normal_stiffness);
 }
 
 namespace {
@@ -61,7 +78,8 @@ State<Disks> without_bodies(const Scene& scene, std::uint64_t seed) {
 void refuse_without_cell(const Scene& scene, const std::string& path) {
   std::vector<Fault> faults;
   const auto refuse = [&](const std::string& key) {
-    faults.push_back({"scene", 0, key, "", "needs a periodic cell; the packing of " + path + " is isolated"});
+    faults.push_back({"scene", 0, key, "",
+                      "needs a periodic cell; the packing of " + path + " is isolated (grains.box gives it one)"});
   };
   for (std::size_t k = 0; k < scene.stages.size(); ++k) {
     const StageScene& s = scene.stages[k];
@@ -109,6 +127,24 @@ void contain(State<Disks>& state, const State<Disks>& file, const std::string& p
   state.surroundings.open = file.surroundings.open;
 }
 
+// With the rules for the step that need to know the grains; `origin` says what these are from.
+void set_time_step(State<Disks>& state, const std::string& origin) {
+  const Scene& scene = state.scene;
+  const Bodies<2>& b = state.packing.bodies;
+  state.time_step = time_step(scene, state.law.normal_stiffness, state.packing);
+  double smallest = INFINITY;
+  for (std::size_t k = 0; k < b.size(); ++k)
+    if (is_free(state.packing.part, k)) smallest = std::min(smallest, 2 * b.radius[k]);
+  const double critical = critical_time_step(state.law, state.packing);
+  if (scene.step.fraction && !(state.time_step < critical))
+    throw InputError(origin, 0, "step.fraction", real_text(*scene.step.fraction),
+                     "unstable for the smallest grain of this file, diameter " + real_text(smallest) + " a; below " +
+                         real_text(*scene.step.fraction * critical / state.time_step) +
+                         ", or without this key as the grains bear");
+  for (const SceneConflict& c : wall_motion_conflicts(scene, state.time_step, smallest))
+    throw InputError("scene", 0, c.key, c.value, c.rule);
+}
+
 // The cell in its shape nearest to a rectangle: as it would be lowered to when it shears.
 void lower_tilt(Packing<2>& packing) {
   if (!packing.cell) return;
@@ -120,7 +156,7 @@ void lower_tilt(Packing<2>& packing) {
 // grains.file: bodies, cell and spring histories of a packing under the scene's law, at time 0.
 State<Disks> state_from_file(const Scene& scene, std::uint64_t seed) {
   const std::string& path = scene.grains.file;
-  PackingFile file = read_packing(path);
+  PackingFile file = read_grains_file(path, scene.grains.box);
   if (file.packing_3d) throw InputError(path, 0, "grains.file", path, "a packing of disks is wanted; this one is 3D");
   if (file.triangles)
     throw InputError(path, 0, "grains.file", path, "a packing of disks is wanted; this one is of triangles");
@@ -131,9 +167,10 @@ State<Disks> state_from_file(const Scene& scene, std::uint64_t seed) {
   if (packing.bodies.size() == 0) throw InputError(path, 0, "grains.file", path, "it holds no grain");
   State<Disks> state = without_bodies(scene, seed);
   state.packing = std::move(packing);
+  const bool weighed = file.densities_given || densities_differ(state.packing.bodies, [](std::size_t) { return true; });
   lower_tilt(state.packing);
   contain(state, file.state, path);
-  set_disk_inertia(state.packing.bodies);
+  if (!weighed) set_disk_inertia(state.packing.bodies);
   if (!file.links_given) state.packing.links.clear();
   const Bodies<2>& b = state.packing.bodies;
   for (const Link<2>& l : touching_links(state.packing, 0.0)) {
@@ -144,17 +181,7 @@ State<Disks> state_from_file(const Scene& scene, std::uint64_t seed) {
                        "grains " + std::to_string(b.id[i]) + " and " + std::to_string(b.id[j]) + " overlap by " +
                            std::to_string(-l.gap) + " a; at most a tenth of the sum of radii is allowed");
   }
-  state.time_step = time_step(scene, state.law.normal_stiffness, state.packing);
-  double smallest = INFINITY;
-  for (std::size_t k = 0; k < b.size(); ++k)
-    if (is_free(state.packing.part, k)) smallest = std::min(smallest, 2 * b.radius[k]);
-  const double bound = scene.step.fraction * critical_time_step(state.law, smallest) / state.time_step;
-  if (!(scene.step.fraction < bound))
-    throw InputError(path, 0, "step.fraction", real_text(scene.step.fraction),
-                     "unstable for the smallest grain of this file, diameter " + real_text(smallest) + " a; below " +
-                         real_text(bound));
-  for (const SceneConflict& c : wall_motion_conflicts(scene, state.time_step, smallest))
-    throw InputError("scene", 0, c.key, c.value, c.rule);
+  set_time_step(state, path);
   if (state.packing.cell) state.cell_motion.reference_length = state.packing.cell->length;
   return state;
 }
@@ -191,6 +218,10 @@ State<Disks> about_to_collide(const Scene& scene, std::uint64_t seed) {
 }
 
 [[noreturn]] void refuse_density(const GrainsScene& g) {
+  if (g.solid_fraction > kDensestGas)
+    throw InputError("scene", 0, "grains.solid_fraction", real_text(g.solid_fraction),
+                     "the disks jam before; lower it (those of like sizes jam at about 0.84, and sooner if "
+                     "law.attraction_range keeps them apart)");
   throw InputError("scene", 0, "grains.solid_fraction", real_text(g.solid_fraction),
                    "no room was found for disks that keep law.attraction_range apart; lower it (0.5 is safe)");
 }
@@ -224,12 +255,10 @@ State<Disks> initial_disks(const Scene& scene, std::uint64_t seed) {
   Random random(seed);
 
   const auto n = static_cast<std::size_t>(g.count);
-  std::vector<double> diameters(n);
+  const DrawnSizes drawn = GrainSizes(g, 2).draw(n, random);
+  const std::vector<double>& diameters = drawn.diameter;
   double area = 0;
-  for (double& d : diameters) {
-    d = g.diameter_min + (g.diameter_max - g.diameter_min) * random.uniform();
-    area += std::numbers::pi / 4 * d * d;
-  }
+  for (const double d : diameters) area += std::numbers::pi / 4 * d * d;
   const Room room = room_of(scene, area / g.solid_fraction);
   if (room.frame.periodic) {
     state.packing.cell = PeriodicCell<2>{room.frame.length};
@@ -261,11 +290,19 @@ State<Disks> initial_disks(const Scene& scene, std::uint64_t seed) {
   if (dense) {
     std::vector<double> radii(n);
     for (std::size_t k = 0; k < n; ++k) radii[k] = diameters[k] / 2;
-    if (!grow_and_mix({*state.packing.cell, gap}, radii, placement, b, random)) refuse_density(g);
+    if (g.solid_fraction > kDensestGas) b.radius = radii;
+    if (!(g.solid_fraction > kDensestGas ? push_apart(*state.packing.cell, gap, b)
+                                         : grow_and_mix({*state.packing.cell, gap}, radii, placement, b, random)))
+      refuse_density(g);
   }
   set_disk_inertia(b);
+  for (std::size_t k = 0; k < drawn.density.size(); ++k)
+    b.mass[k] *= drawn.density[k], b.inertia[k] *= drawn.density[k];
   if (room.container) add_container(state);
-  state.time_step = time_step(scene, state.law.normal_stiffness, state.packing);
+  if (scene.step.fraction && g.law() != SizeLaw::table)
+    state.time_step = time_step(scene, state.law.normal_stiffness, state.packing);  // the scene was checked for it
+  else
+    set_time_step(state, g.law() == SizeLaw::table ? g.size_table : "scene");
   state.random_counter = random.counter();
   return state;
 }

@@ -5,13 +5,13 @@
 
 namespace isostat {
 
-// Disk of diameter d: mass d^2, moment of inertia m d^2 / 8 (a = m = 1).
-void set_disk_inertia(Bodies<2>& bodies);
+// Disk of diameter d: mass d^2, moment of inertia m d^2 / 8 (a = m = 1). Of the bodies from `first` on.
+void set_disk_inertia(Bodies<2>& bodies, std::size_t first = 0);
 
 // A state before its first stage: bodies, cell, law, time step. Throws InputError if the disks cannot be placed.
 State<Disks> initial_disks(const Scene& scene, std::uint64_t seed);
 
-// dt = c sqrt(m_max / K_N), m_max of the free grains.
+// dt = c sqrt(m_max / K_N), m_max of the free grains; c of the scene, or what its smallest and lightest grains bear.
 double time_step(const Scene& scene, double normal_stiffness, const Packing<2>& packing);
 
 }  // namespace isostat

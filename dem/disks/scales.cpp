@@ -4,17 +4,26 @@
 #include <cmath>
 #include <numbers>
 
+#include "dem/solver/agitation.hpp"
+
 namespace isostat {
 
-double time_step(const DiskLaw& law, double fraction, double diameter_max) {
-  return fraction * diameter_max / std::sqrt(law.normal_stiffness);
+double time_step(const DiskLaw& law, double fraction, double heaviest) {
+  return fraction * std::sqrt(heaviest / law.normal_stiffness);
 }
 
-double critical_time_step(const DiskLaw& law, double diameter_min) {
-  const double mass = diameter_min * diameter_min;
+double critical_time_step(const DiskLaw& law, double diameter, double mass) {
   const double translation = 6 * (law.normal_stiffness + law.tangential_stiffness) / mass;
-  const double rotation = (24 * law.tangential_stiffness + 96 * law.rolling_stiffness / mass) / mass;
+  const double rotation = (24 * law.tangential_stiffness + 96 * law.rolling_stiffness / (diameter * diameter)) / mass;
   return 2 / std::sqrt(std::max(translation, rotation));
+}
+
+double critical_time_step(const DiskLaw& law, const Packing<2>& packing) {
+  const Bodies<2>& b = packing.bodies;
+  double least = INFINITY;
+  for (std::size_t k = 0; k < b.size(); ++k)
+    if (is_free(packing.part, k)) least = std::min(least, critical_time_step(law, 2 * b.radius[k], b.mass[k]));
+  return least;
 }
 
 Scales scales(const DiskLaw& law, std::optional<double> pressure, double diameter_min, double time_step) {
@@ -37,12 +46,10 @@ Scales scales(const DiskLaw& law, std::optional<double> pressure, double diamete
 }
 
 Scales scales(const State<Disks>& state) {
-  const auto& radius = state.packing.bodies.radius;
-  double smallest = INFINITY;
-  for (std::size_t k = 0; k < radius.size(); ++k)
-    if (is_free(state.packing.part, k)) smallest = std::min(smallest, radius[k]);
-  if (smallest == INFINITY) return scales(state.law, largest_stress(state.imposed_stress), 1, state.time_step);
-  return scales(state.law, largest_stress(state.imposed_stress), 2 * smallest, state.time_step);
+  Scales s = scales(state.law, largest_stress(state.imposed_stress), 1, state.time_step);
+  if (const double bound = critical_time_step(state.law, state.packing); bound < INFINITY) s.critical_time_step = bound;
+  if (!state.scene.stages.empty()) s.velocity = velocity_unit(state);
+  return s;
 }
 
 SiScales si_scales(const UnitsScene& units) {

@@ -12,7 +12,7 @@ struct Scales {
   std::optional<double> reduced_pressure;    // P* = a P / F0; without cohesion P in the scene's unit; none: fixed cell
   std::optional<double> overlap_over_range;  // h0 / D0 = F0 / (K_N D0); none without cohesion
   double restitution = 1;                    // e_N = exp(-pi zeta / sqrt(1 - zeta^2)) of two free disks
-  std::optional<double> velocity;            // V* = sqrt(F0 D0 / m) [a/T0]; none without cohesion
+  std::optional<double> velocity;            // V* = sqrt(F0 D0 / m) [a/T0]; of a law without cohesion alone none
   std::optional<double> time;     // T0 = sqrt(m a / F0), without cohesion sqrt(m / P) [T0 of the scene's unit]
   double time_step = 0;           // dt [T0]
   double critical_time_step = 0;  // 2 / omega_max of critical_time_step() [T0]
@@ -20,18 +20,25 @@ struct Scales {
 
 // diameter_min: of the smallest grain [a]; the mass of a disk is d^2 [m].
 Scales scales(const DiskLaw& law, std::optional<double> pressure, double diameter_min, double time_step);
+// With V* of the scene, if it is one of stages, where there is no cohesion (velocity_unit() of
+// dem/solver/agitation.hpp).
 Scales scales(const State<Disks>& state);
 
 // dt = fraction * sqrt(m_max / K_N) [T0].
-double time_step(const DiskLaw& law, double fraction, double diameter_max);
+double time_step(const DiskLaw& law, double fraction, double heaviest);
 
 // Largest stable step of the undamped central-difference scheme, dt < 2 / omega_max [T0], with omega_max bounded for
-// the smallest grain (mass m = d^2, inertia m d^2 / 8) among neighbours as small, at most six of them in the plane: the
-// sum of contact stiffnesses per grain counts twice because the neighbour may move in antiphase.
+// a grain (mass m, by default d^2, inertia m d^2 / 8) among neighbours as small and as light, at most six of them in
+// the plane: the sum of contact stiffnesses per grain counts twice because the neighbour may move in antiphase.
 //   translation  omega^2 = 2 * 6/2 (K_N + K_T) / m  (averaged over directions n n + t t = 1)
 //   rotation     omega^2 = 2 * 6 (K_T d^2/4 + K_r) / I = 24 K_T / m + 96 K_r / (m d^2)
 // The rotational value is reached, for K_r = 0, by equal disks on a triangular lattice all spinning alike.
-double critical_time_step(const DiskLaw& law, double diameter_min);
+double critical_time_step(const DiskLaw& law, double diameter, double mass);
+inline double critical_time_step(const DiskLaw& law, double diameter) {
+  return critical_time_step(law, diameter, diameter * diameter);
+}
+// Of the free grain that bears least; infinite if none is left.
+double critical_time_step(const DiskLaw& law, const Packing<2>& packing);
 
 // SI values of the units of a scene, and of what is derived from them.
 struct SiScales {

@@ -2,22 +2,23 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "dem/scene/arrangement.hpp"
+#include "dem/scene/sizes.hpp"
 
 namespace isostat {
 
-// [grains]: N disks, diameters uniform in [diameter_min, diameter_max], in random non-overlapping positions
-// (the I-state of Gilabert 2007, Sec. III.A); or two that collide.
-struct GrainsScene {
+// [grains]: N disks, by default of diameters uniform in [diameter_min, diameter_max], in random non-overlapping
+// positions (the I-state of Gilabert 2007, Sec. III.A); or two that collide.
+struct GrainsScene : SizesScene {
   int count = 1400;
   double solid_fraction = 0.36;  // [-] Phi_I, with sum of pi d^2 / 4 over the cell's area
-  double diameter_min = 0.5;     // [a]
-  double diameter_max = 1.0;     // [a]
   Arrangement arrangement = Arrangement::random;
-  double speed = 1;     // [a/T0] of the left disk of a collision, along x
-  double offset = 0.5;  // [diameter_max] by which it is higher
-  std::string file;     // a state or .net file to start from instead; empty: none
+  double speed = 1;         // [a/T0] of the left disk of a collision, along x
+  double offset = 0.5;      // [diameter_max] by which it is higher
+  std::string file;         // a packing to start from instead; empty: none
+  std::vector<double> box;  // [a] edges of the cell of a file that has none; empty: it stays isolated
   friend bool operator==(const GrainsScene&, const GrainsScene&) = default;
 };
 

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "dem/files/atomic_file.hpp"
+#include "dem/files/formats/table_packing.hpp"
 #include "dem/files/network_lines.hpp"
 #include "dem/input_error.hpp"
 #include "dem/state/beam.hpp"
@@ -52,7 +53,8 @@ class NetworkParser {
     if (!faults_.empty()) throw InputError(std::move(faults_));
     require_lengths(file_.packing.cell, file_.packing.bodies, path_, gap_tolerance, cell_line_);
 
-    set_masses();
+    file_.packing.bodies.resize(file_.packing.bodies.size());
+    set_equal_densities(file_.packing.bodies);
     if (!file_.links_given)
       find_contacts(file_.packing, gap_tolerance.value_or(default_gap_tolerance(file_.packing.bodies)));
     return std::move(file_);
@@ -240,17 +242,6 @@ class NetworkParser {
       link.gap = distance - b.radius[ui] - b.radius[uj];
     }
     file_.packing.links.push_back(link);
-  }
-
-  // Equal densities, mass 1 for the largest: disks m ~ R^2, I = m R^2 / 2; spheres m ~ R^3, I = 2 m R^2 / 5.
-  void set_masses() {
-    Bodies<D>& b = file_.packing.bodies;
-    b.resize(b.size());
-    const double largest = *std::max_element(b.radius.begin(), b.radius.end());
-    for (std::size_t i = 0; i < b.size(); ++i) {
-      b.mass[i] = std::pow(b.radius[i] / largest, D);
-      b.inertia[i] = (D == 2 ? 0.5 : 0.4) * b.mass[i] * b.radius[i] * b.radius[i];
-    }
   }
 
   struct Key {

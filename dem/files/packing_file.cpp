@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <stdexcept>
 
 #include "dem/files/atomic_file.hpp"
 #include "dem/files/formats/csv.hpp"
 #include "dem/files/formats/dump.hpp"
+#include "dem/files/formats/packing_header.hpp"
+#include "dem/files/formats/table_packing.hpp"
 #include "dem/files/formats/text_table.hpp"
 #include "dem/files/network_file.hpp"
 #include "dem/files/state_file.hpp"
@@ -24,15 +27,47 @@
 namespace isostat {
 namespace {
 
-// What could not be kept as a state: squares of lengths that overflow or vanish, say.
+// From the units of the file to those of --length and --force. Times and masses stay.
 template <int D>
-void set_packing(PackingFile& file, Packing<D> packing, const std::string& path) {
+void rescale(Packing<D>& packing, double length, double force) {
+  if (packing.cell) packing.cell->length = packing.cell->length / length;
+  Bodies<D>& b = packing.bodies;
+  for (std::size_t k = 0; k < b.size(); ++k) {
+    b.position[k] = b.position[k] / length, b.velocity[k] = b.velocity[k] / length;
+    b.radius[k] /= length, b.inertia[k] /= length * length;
+  }
+  for (Link<D>& l : packing.links) {
+    l.gap /= length, l.normal_force /= force;
+    l.tangential_force = l.tangential_force / force, l.moment = l.moment / (force * length);
+  }
+  if (!packing.beams.empty()) throw std::logic_error("rescale: beams");
+}
+
+// What could not be kept as a state is refused: squares of lengths that overflow or vanish, say.
+template <int D>
+void set_packing(PackingFile& file, Packing<D> packing, const std::optional<PackingHeader>& header,
+                 const std::string& path, const PackingReading& reading) {
+  if (reading.length != 1 || reading.force != 1) {
+    if (header || !packing.beams.empty())
+      throw InputError(path, 0, reading.length != 1 ? "--length" : "--force", "",
+                       header ? "the file says its units with its law; leave the option out"
+                              : "beams have stiffnesses in units of their own");
+    rescale(packing, reading.length, reading.force);
+  }
   if (const auto fault = packing_fault(packing))
     throw InputError(path, 0, fault->field, "", fault->rule + "; check the units");
-  if constexpr (D == 2)
+  if constexpr (D == 2) {
     file.state = foreign_state(std::move(packing));
-  else
-    static_cast<Packing<3>&>(file.packing_3d.emplace()) = std::move(packing);
+    if (header) header->complete(file.state);
+  } else {
+    if (!header) {
+      static_cast<Packing<3>&>(file.packing_3d.emplace()) = std::move(packing);
+      return;
+    }
+    file.spheres = foreign_state(std::move(packing));
+    header->complete(*file.spheres);
+    file.packing_3d = file.spheres->packing;
+  }
 }
 
 template <int D>
@@ -42,15 +77,16 @@ PeriodicCell<D> cell_of(const std::vector<double>& edges) {
   return cell;
 }
 
-// Gives the packing the cell of --box, unless it has its own.
+// Gives the packing the cell that the user wants, unless it has its own.
 template <int D>
 void set_box(Packing<D>& packing, const std::string& path, const PackingReading& reading) {
   if (!reading.box) return;
   std::string given;
   for (const double edge : *reading.box) given += (given.empty() ? "" : ",") + std::to_string(edge);
-  if (packing.cell) throw InputError(path, 0, "--box", given, "the file has its own cell; leave --box out");
+  if (packing.cell)
+    throw InputError(path, 0, reading.box_name, given, "the file has its own cell; leave " + reading.box_name + " out");
   if (reading.box->size() != D)
-    throw InputError(path, 0, "--box", given, "needs " + std::to_string(D) + " edges for this file");
+    throw InputError(path, 0, reading.box_name, given, "needs " + std::to_string(D) + " edges for this file");
   packing.cell = cell_of<D>(*reading.box);
 }
 
@@ -76,7 +112,8 @@ void find_touching(Packing<D>& packing, const PackingReading& reading) {
 
 template <int D>
 void read_network_into(PackingFile& file, const std::string& path, const PackingReading& reading) {
-  NetworkFile<D> network = read_network<D>(path, reading.gap_tolerance);
+  const std::string text = read_whole_file(path);
+  NetworkFile<D> network = parse_network<D>(text, path, reading.gap_tolerance);
   file.links_given = network.links_given;
   const bool isolated = !network.packing.cell;
   set_box(network.packing, path, reading);
@@ -96,12 +133,13 @@ void read_network_into(PackingFile& file, const std::string& path, const Packing
     }
     if (!file.links_given) find_touching(network.packing, reading);
   }
-  set_packing(file, std::move(network.packing), path);
+  set_packing(file, std::move(network.packing), header_in_comments(text, path), path, reading);
 }
 
 void read_triangles_into(PackingFile& file, const std::string& path, const PackingReading& reading) {
   std::optional<Vec2> box;
-  if (reading.box && reading.box->size() != 2) throw InputError(path, 0, "--box", "", "needs 2 edges for this file");
+  if (reading.box && reading.box->size() != 2)
+    throw InputError(path, 0, reading.box_name, "", "needs 2 edges for this file");
   if (reading.box) box = Vec2{{(*reading.box)[0], (*reading.box)[1]}};
   TriangleNetworkFile network = read_triangle_network(path, box);
   file.triangles = foreign_state(std::move(network.packing));
@@ -118,30 +156,52 @@ void take(PackingFile& file, State<TriangleGrains> state) {
   file.triangles = std::move(state);
 }
 
-// Grains of a table, a cell, and the links of a second table if there is one.
+// What belongs to a table of grains.
+struct BesideGrains {
+  std::optional<TextTable> links;
+  std::optional<std::vector<double>> cell;
+  double tilt = 0;  // of that cell
+  std::optional<PackingHeader> header;
+};
+
 template <int D>
-void read_tables_into(PackingFile& file, const TextTable& grains, const std::optional<TextTable>& links,
-                      const std::optional<std::vector<double>>& own_box, double tilt, const PackingReading& reading) {
+void read_tables_into(PackingFile& file, const TextTable& grains, const BesideGrains& beside,
+                      const PackingReading& reading) {
   Packing<D> packing;
-  packing.bodies = read_grains<D>(grains);
-  if (own_box) packing.cell = cell_of<D>(*own_box), packing.cell->tilt = tilt;
+  GrainColumns columns;
+  packing.bodies = read_grains<D>(grains, reading.columns, reading.radius, &columns);
+  file.ids_given = columns.ids, file.sizes_given = columns.sizes, file.velocities_given = columns.velocities,
+  file.spins_given = columns.spins, file.densities_given = columns.densities;
+  if (beside.cell) {
+    if (beside.cell->size() < D)
+      throw InputError(grains.path, 0, "cell", "", "needs " + std::to_string(D) + " edges for these grains");
+    packing.cell = cell_of<D>(*beside.cell);
+    if (D == 3 && beside.tilt != 0)
+      throw InputError(grains.path, 0, "tilt", "", "a cell in space stands upright; only one of the plane tilts");
+    packing.cell->tilt = beside.tilt;
+  }
   set_box(packing, grains.path, reading);
+  if (!packing.cell && reading.own_cell && reading.own_cell->size() == D) packing.cell = cell_of<D>(*reading.own_cell);
   check_cell(packing, grains.path);
   require_lengths(packing.cell, packing.bodies, grains.path, reading.gap_tolerance);
-  file.links_given = links.has_value();
-  if (links)
-    packing.links = read_links<D>(*links, packing);
+  file.links_given = beside.links.has_value();
+  if (beside.links)
+    packing.links = read_links<D>(*beside.links, packing, reading.columns);
   else
     find_touching(packing, reading);
-  set_packing(file, std::move(packing), grains.path);
+  set_packing(file, std::move(packing), beside.header, grains.path, reading);
 }
 
-void read_tables(PackingFile& file, const TextTable& grains, const std::optional<TextTable>& links,
-                 const std::optional<std::vector<double>>& own_box, double tilt, const PackingReading& reading) {
-  if (grain_dimension(grains) == 2) return read_tables_into<2>(file, grains, links, own_box, tilt, reading);
-  if (tilt != 0)
-    throw InputError(grains.path, 0, "BOX BOUNDS", "xy", "a cell in space stands upright; only one of the plane tilts");
-  read_tables_into<3>(file, grains, links, own_box, 0, reading);
+void read_tables(PackingFile& file, const TextTable& grains, const BesideGrains& beside,
+                 const PackingReading& reading) {
+  for (const auto& [ours, theirs] : reading.columns)
+    if (!beside.links && is_column_of(TableKind::contacts, ours))
+      throw InputError(grains.path, 0, "--columns", ours + "=" + theirs,
+                       "is a column of contacts, and there are none; --contacts FILE gives them");
+  if (grain_dimension(grains, reading.columns) == 3)
+    read_tables_into<3>(file, grains, beside, reading);
+  else
+    read_tables_into<2>(file, grains, beside, reading);
 }
 
 bool exists(const std::string& path) {
@@ -149,27 +209,61 @@ bool exists(const std::string& path) {
   return std::filesystem::is_regular_file(path, ignored);
 }
 
+// The file of contacts that was named, or the one that lies beside the grains, if it is there.
+std::string contacts_path(const PackingReading& reading, const std::string& grains, const std::string& beside) {
+  if (!reading.contacts.empty()) return reading.contacts;
+  return beside != grains && exists(beside) ? beside : "";
+}
+
+// Contacts of a table of text, or of a dump local.
+DumpFrame read_contacts(const std::string& path, const PackingReading& reading) {
+  std::string text = read_whole_file(path);
+  if (text.starts_with("ITEM:")) return parse_dump(std::move(text), path, reading.columns);
+  DumpFrame frame;
+  frame.table = parse_table(std::move(text), path);
+  return frame;
+}
+
+std::optional<PackingHeader> read_header(const std::string& grains) {
+  const std::string path = header_path(grains);
+  if (path == grains || !exists(path)) return std::nullopt;
+  return PackingHeader(read_whole_file(path), path);
+}
+
 void read_csv(PackingFile& file, const std::string& path, const PackingReading& reading) {
-  const std::string text = read_whole_file(path), links_path = contacts_csv_path(path);
-  std::string links_text;
-  std::optional<TextTable> links;
-  if (links_path != path && exists(links_path)) {
-    links_text = read_whole_file(links_path);
-    links = parse_csv(links_text, links_path);
-  }
-  read_tables(file, parse_csv(text, path), links, std::nullopt, 0, reading);
+  BesideGrains beside;
+  if (const std::string links = contacts_path(reading, path, contacts_csv_path(path)); !links.empty())
+    beside.links = read_contacts(links, reading).table;
+  beside.header = read_header(path);
+  if (beside.header && !reading.box) beside.cell = beside.header->cell(), beside.tilt = beside.header->tilt();
+  read_tables(file, parse_table(read_whole_file(path), path), beside, reading);
 }
 
 void read_dump(PackingFile& file, const std::string& path, const PackingReading& reading) {
-  const std::string text = read_whole_file(path), links_path = links_dump_path(path);
-  std::string links_text;
-  std::optional<DumpFrame> links;
-  if (links_path != path && exists(links_path)) {
-    links_text = read_whole_file(links_path);
-    links = parse_dump(links_text, links_path);
+  BesideGrains beside;
+  DumpFrame grains = parse_dump(read_whole_file(path), path, reading.columns);
+  if (const std::string links = contacts_path(reading, path, links_dump_path(path)); !links.empty()) {
+    DumpFrame frame = read_contacts(links, reading);
+    if (frame.step && grains.step && *frame.step != *grains.step)
+      throw InputError(links, 0, "TIMESTEP", std::to_string(*frame.step),
+                       "is the last frame of the contacts; that of the grains is " + std::to_string(*grains.step));
+    beside.links = std::move(frame.table);
   }
-  const DumpFrame grains = parse_dump(text, path);
-  read_tables(file, grains.table, links ? std::optional(links->table) : std::nullopt, grains.box, grains.tilt, reading);
+  beside.header = read_header(path);
+  beside.cell = grains.box, beside.tilt = grains.tilt;
+  read_tables(file, grains.table, beside, reading);
+}
+
+// Options that only tables, or only packings in units of their own, have a use for.
+void refuse_options(const std::string& path, const PackingReading& reading, PackingFormat format, bool triangles) {
+  const bool table = format == PackingFormat::csv || format == PackingFormat::dump;
+  if (!table && !reading.columns.empty())
+    throw InputError(path, 0, "--columns", "", "belongs to tables of text and dumps; this file has no columns");
+  if (!table && !reading.contacts.empty())
+    throw InputError(path, 0, "--contacts", reading.contacts, "belongs to tables of text and dumps");
+  if ((format == PackingFormat::state || triangles) && (reading.length != 1 || reading.force != 1))
+    throw InputError(path, 0, reading.length != 1 ? "--length" : "--force", "",
+                     "the file has its units; leave the option out");
 }
 
 // X.csv may stand for X.grains.csv.
@@ -180,7 +274,7 @@ std::string existing_path(const std::string& path) {
 
 }  // namespace
 
-PackingFormat sniff_packing_format(const std::string& path) {
+PackingFormat sniff_packing_format(const std::string& path, bool columns_named) {
   const std::string bytes = first_bytes(existing_path(path), 4096);
   // Also other HDF5 files, damaged states and whatever is called .h5: the reader of states says what is wrong.
   if (begins_like_state(bytes) || bytes.starts_with("\x89HDF\r\n\x1a\n") || path.ends_with(".h5"))
@@ -197,23 +291,28 @@ PackingFormat sniff_packing_format(const std::string& path) {
         word == "triangle")
       return PackingFormat::network;
     if (word == "ITEM:") return PackingFormat::dump;
-    if (line.find(',') != std::string::npos) return PackingFormat::csv;
     break;
   }
   // A network with a misspelt first line is told so by its own reader.
   if (path.ends_with(".net")) return PackingFormat::network;
+  if (is_text && (columns_named || path.ends_with(".csv") || begins_like_table(bytes))) return PackingFormat::csv;
   throw InputError(path, 0, "", "",
-                   "is no state (HDF5), network (.net), LAMMPS dump or CSV of grains; a damaged state must be packed "
-                   "again");
+                   is_text ? "is no state (HDF5), network (.net), LAMMPS dump or table of grains: such a table begins "
+                             "with the names of its columns, x, y and r (or d, the diameter), split by commas, "
+                             "semicolons, tabs or white space"
+                           : "is no state (HDF5), network (.net), LAMMPS dump or table of grains; a damaged state must "
+                             "be packed again");
 }
 
 PackingFile read_packing(const std::string& given_path, const PackingReading& reading) {
   const std::string path = existing_path(given_path);
   PackingFile file;
-  file.format = sniff_packing_format(path);
+  file.format = sniff_packing_format(path, !reading.columns.empty());
+  refuse_options(path, reading, file.format, false);
   switch (file.format) {
     case PackingFormat::state:
-      if (reading.box) throw InputError(path, 0, "--box", "", "a state has its own cell; leave --box out");
+      if (reading.box)
+        throw InputError(path, 0, reading.box_name, "", "a state has its own cell; leave " + reading.box_name + " out");
       std::visit(
           [&](auto&& state) {
             require_lengths(state.packing.cell, state.packing.bodies, path, reading.gap_tolerance);
@@ -231,6 +330,7 @@ PackingFile read_packing(const std::string& given_path, const PackingReading& re
           read_network_into<3>(file, path, reading);
           break;
         case NetworkKind::triangles:
+          refuse_options(path, reading, file.format, true);
           read_triangles_into(file, path, reading);
           break;
       }

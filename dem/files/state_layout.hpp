@@ -3,6 +3,7 @@
 // not compile until it has its place here. Raise kStateFormatVersion and extend docs/formats.md with any change;
 // io.since() says whether a member is there in an older file.
 #pragma once
+#include <limits>
 #include <string>
 
 #include "dem/state/state.hpp"
@@ -12,7 +13,8 @@ namespace isostat {
 template <class Io, int D>
 void transfer_progress(Io& io, StageProgress<D>& progress) {
   auto& [stage, start_time, started, drag_on, quiet_since, contact_set, unchanged_since, start_stiffness, start_stress,
-         start_shear_stress, peak_stress, drifting, solves, unmet] = progress;
+         start_shear_stress, ramp_stress, ramp_rate, ramp_shear_stress, ramp_shear_rate, carried_stress, carried_at,
+         peak_stress, drifting, solves, unmet] = progress;
   io.value("/progress", "stage", stage);
   io.value("/progress", "start_time", start_time);
   io.value("/progress", "started", started);
@@ -25,6 +27,14 @@ void transfer_progress(Io& io, StageProgress<D>& progress) {
   if (io.since(7)) io.value("/progress", "start_shear_stress", start_shear_stress);
   io.value("/progress", "peak_stress", peak_stress);
   io.value("/progress", "drifting", drifting);
+  if (io.since(7)) {
+    io.value("/progress", "ramp_stress", ramp_stress);
+    io.value("/progress", "ramp_rate", ramp_rate);
+    io.value("/progress", "ramp_shear_stress", ramp_shear_stress);
+    io.value("/progress", "ramp_shear_rate", ramp_shear_rate);
+    io.value("/progress", "carried_stress", carried_stress);
+    io.value("/progress", "carried_at", carried_at);
+  }
   io.count_if_any("/progress", "solves", solves);
   io.text_if_any("/progress", "unmet", unmet);
 }
@@ -60,8 +70,8 @@ void transfer_ledger(Io& io, EnergyLedger& ledger) {
 template <class Io>
 void transfer_certificate(Io& io, Certificate& certificate) {
   auto& [max_force, max_moment, pressure_error, kinetic_energy_per_grain, force_scale, tolerance_force,
-         tolerance_pressure, tolerance_kinetic, sliding, rolling_yielded, smallest_margin, moving, pressure_controlled,
-         equilibrated, finishing] = certificate;
+         tolerance_pressure, tolerance_kinetic, sliding, rolling_yielded, smallest_margin, moving, inertial_number,
+         stress_error, pressure_controlled, equilibrated, finishing] = certificate;
   io.value("/certificate", "max_force", max_force);
   io.value("/certificate", "max_moment", max_moment);
   io.value("/certificate", "pressure_error", pressure_error);
@@ -77,6 +87,12 @@ void transfer_certificate(Io& io, Certificate& certificate) {
   io.value("/certificate", "pressure_controlled", pressure_controlled);
   io.value("/certificate", "equilibrated", equilibrated);
   io.value("/certificate", "finishing", finishing);
+  if (!io.since(7)) {
+    inertial_number = stress_error = std::numeric_limits<double>::quiet_NaN();
+    return;
+  }
+  io.value("/certificate", "inertial_number", inertial_number);
+  io.value("/certificate", "stress_error", stress_error);
 }
 
 template <class Io, class System>

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "dem/run/finishing.hpp"
+#include "dem/run/loading.hpp"
 #include "dem/state/clusters.hpp"
 #include "dem/state/contact_set.hpp"
 #include "dem/state/state.hpp"
@@ -29,7 +30,7 @@ class FinishingPolicy {
 
   void follow_contacts() {
     const std::uint64_t now = contact_set(s_.packing);
-    if (now != s_.progress.contact_set || law_changes(s_, stage_))
+    if (now != s_.progress.contact_set || still_loading(s_, stage_))
       s_.progress.contact_set = now, s_.progress.unchanged_since = s_.time;
   }
 
@@ -46,9 +47,8 @@ class FinishingPolicy {
   bool only_creep_is_left() {
     const Certificate& c = s_.certificate;
     const bool newton = method() == Finish::newton;
-    const bool network =
-        waits_for_equilibrium(stage_.until) && !law_changes(s_, stage_) && (newton || !still_flying()) &&
-        static_cast<double>(loaded_contacts(s_)) >= kNetwork * static_cast<double>(count_free(s_.packing));
+    const bool network = waits_for_equilibrium(stage_.until) && !still_loading(s_, stage_) &&
+                         (newton || !still_flying()) && has_network(s_);
     const bool carries =
         c.pressure_error * c.force_scale < std::max(kCarried * std::abs(largest_stress(s_.imposed_stress).value_or(0)),
                                                     10 * c.tolerance_pressure * c.force_scale);
@@ -76,8 +76,6 @@ class FinishingPolicy {
   }
 
  private:
-  static constexpr double kNetwork =
-      0.9;  // [loaded contacts a grain] a connected network has one at least, rattlers none
   static constexpr double kCarried = 0.5;  // [-] of the imposed stress that may be missing when finishing begins
   static constexpr double kRinging = 20;   // [-] times the kinetic tolerance: static solves follow what still moves
   static constexpr double kFlying = 100;   // [-] and the last clusters on their long flights to each other

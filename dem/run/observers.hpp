@@ -20,15 +20,19 @@ class Observers {
   void begin_stage(const State<System>& s) {
     half_step_ = 0.5 * s.time_step;
     if (observes()) last_observation_ = std::floor((s.time + half_step_) / hooks_.observe_interval);
+    if (const auto interval = s.scene.output.snapshot_interval)
+      last_snapshot_ = std::floor((s.time + half_step_) / *interval);
     solid_fraction_before_ = solid_fraction(s.packing);
   }
 
   // [T0] the next time at which somebody wants to look; infinite: nobody does.
   double next_time(const State<System>& s, double now) const {
     double next = observes() ? next_observation() : INFINITY;
-    if (hooks_.snapshot)
-      for (const double t : s.scene.output.snapshot_times)
-        if (t > now + half_step_) next = std::min(next, t);
+    if (!hooks_.snapshot) return next;
+    const OutputScene& o = s.scene.output;
+    if (o.snapshot_interval) next = std::min(next, (last_snapshot_ + 1) * *o.snapshot_interval);
+    for (const double t : o.snapshot_times)
+      if (t > now + half_step_) next = std::min(next, t);
     return next;
   }
 
@@ -74,6 +78,10 @@ class Observers {
     const auto crossed = [&](double phi) { return (phi - before) * (phi - phi_now) <= 0; };
     const auto due = [&](double t) { return std::abs(t - now) <= half_step_; };
     const OutputScene& o = s.scene.output;
+    if (o.snapshot_interval && now + half_step_ >= (last_snapshot_ + 1) * *o.snapshot_interval) {
+      last_snapshot_ = std::floor((now + half_step_) / *o.snapshot_interval);
+      return true;
+    }
     return std::any_of(o.snapshot_solid_fractions.begin(), o.snapshot_solid_fractions.end(), crossed) ||
            std::any_of(o.snapshot_times.begin(), o.snapshot_times.end(), due);
   }
@@ -82,6 +90,7 @@ class Observers {
   double last_checkpoint_;       // [s]
   double half_step_ = 0;         // [T0]
   double last_observation_ = 0;  // [observe_interval]
+  double last_snapshot_ = 0;     // [snapshot_interval]
   double solid_fraction_before_ = 0;
 };
 

@@ -50,7 +50,8 @@ class StageEnd {
       case Until::strain:
         return "the strain is " + std::to_string(strain());
       case Until::failure:
-        return "the peak stress has not dropped by stage.drop";
+        return "the stress carried, " + std::to_string(s_.progress.carried_stress) +
+               ", has not lost the part stage.drop of its peak, " + std::to_string(s_.progress.peak_stress);
       case Until::empty:
       case Until::clogged:
         return outflow_.missing();
@@ -62,6 +63,7 @@ class StageEnd {
         break;
     }
     if (law_changes(s_, stage_)) return "K_N is still changing";
+    if (still_loading(s_, stage_)) return "stage.ramp_time is not over";
     if (s_.progress.drifting) return "floppy modes are still drifting";
     if (s_.certificate.equilibrated) return std::to_string(count_clusters(s_.packing)) + " clusters";
     const WorstCriterion worst = worst_criterion(s_.certificate);
@@ -71,14 +73,22 @@ class StageEnd {
   // Why it can't be met any more, if so.
   std::optional<std::string> spoilt() const { return outflow_.spoilt(); }
 
+  // At a look. What a shock adds for the time of a vibration is no strength, and what a vibration takes away for as
+  // long is no loss: the stress is a mean over kPersistence.
   void follow_peak() {
-    if (stage_.until == Until::failure) s_.progress.peak_stress = std::max(s_.progress.peak_stress, stress_change());
+    if (stage_.until != Until::failure) return;
+    StageProgress<System::dimension>& p = s_.progress;
+    const double since = s_.time - p.carried_at, memory = kPersistence * inertial_time(s_, acting_pressure(s_));
+    p.carried_stress += since / (memory + since) * (carried() - p.carried_stress);
+    p.carried_at = s_.time;
+    p.peak_stress = std::max(p.peak_stress, p.carried_stress);
   }
 
  private:
-  static constexpr double kFailureNoise = 1e-3;  // [F1/a] changes of stress below are no peak
+  static constexpr double kFailureNoise = 1e-3;  // [F1/a] a peak below is none
+  static constexpr double kPersistence = 10;     // [sqrt(m a / F1)] about a period of the softest chains
 
-  bool at_rest() const { return !law_changes(s_, stage_) && s_.certificate.equilibrated && !s_.progress.drifting; }
+  bool at_rest() const { return !still_loading(s_, stage_) && s_.certificate.equilibrated && !s_.progress.drifting; }
   // Of the driven directions, the largest.
   double strain() const {
     double largest = 0;
@@ -88,19 +98,38 @@ class StageEnd {
     if (stage_.shear_driven()) largest = std::max(largest, std::abs(s_.cell_motion.shear_strain));
     return largest;
   }
-  // Change of the stress of the driven directions since the stage began [F0/a].
-  double stress_change() const {
-    const Vec<System::dimension> change = static_stress(s_) - s_.progress.start_stress;
-    double largest = 0;
+  // +1: the stage compresses along this direction, -1: it pulls, by a rate or else by a stress that changes; 0:
+  // neither.
+  int tested(int a) const {
+    const auto sign = [](double x) { return (x > 0) - (x < 0); };
+    const auto u = static_cast<std::size_t>(a);
+    if (stage_.driven()) return sign(stage_.strain_rates()[u].value_or(0));
+    const auto wanted = imposed_stress<System::dimension>(stage_)[u];
+    return wanted ? sign(*wanted - s_.progress.ramp_stress[a]) : 0;
+  }
+  // The same of the shear strain -d(tilt)/L2.
+  int shear_tested() const {
+    const auto sign = [](double x) { return (x > 0) - (x < 0); };
+    if (stage_.driven()) return -sign(stage_.shear_rate.value_or(0));
+    return stage_.stress_12 ? sign(*stage_.stress_12 - s_.progress.ramp_shear_stress) : 0;
+  }
+  // [F0/a] What a tested direction carries more than the others, whose stress is imposed; the largest.
+  double carried() const {
+    double others = 0, largest = -INFINITY;
+    int held = 0;
     for (int a = 0; a < System::dimension; ++a)
-      if (stage_.driven(a)) largest = std::max(largest, std::abs(change[a]));
-    if (stage_.shear_driven())
-      largest = std::max(largest, std::abs(static_shear_stress(s_) - s_.progress.start_shear_stress));
+      if (const auto& imposed = s_.imposed_stress[static_cast<std::size_t>(a)]; imposed && tested(a) == 0)
+        others += *imposed, ++held;
+    const Vec<System::dimension> stress = static_stress(s_);
+    for (int a = 0; a < System::dimension; ++a)
+      if (const int sign = tested(a)) largest = std::max(largest, sign * (stress[a] - others / std::max(held, 1)));
+    if (const int sign = shear_tested()) largest = std::max(largest, sign * static_shear_stress(s_));
     return largest;
   }
   bool failed() const {
-    const double peak = s_.progress.peak_stress;
-    return peak > kFailureNoise * s_.certificate.force_scale && stress_change() < (1 - stage_.drop) * peak;
+    const StageProgress<System::dimension>& p = s_.progress;
+    return p.peak_stress > kFailureNoise * s_.certificate.force_scale &&
+           p.carried_stress < (1 - stage_.drop) * p.peak_stress;
   }
 
   State<System>& s_;

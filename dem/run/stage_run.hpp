@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -100,10 +101,11 @@ class StageRun {
     take();
   }
   void certify() {
-    const std::string finishing = s_.progress.drag_on ? "drag" : s_.certificate.finishing;
+    const Certificate before = s_.certificate;
     s_.certificate =
         evaluate_certificate(s_.packing, s_.law, s_.imposed_stress, s_.scene.equilibrium, s_.scene.gravity);
-    s_.certificate.finishing = finishing;
+    keep_record(s_.certificate, before);
+    if (s_.progress.drag_on) s_.certificate.finishing = "drag";
   }
   void look() {
     check_and_take();
@@ -111,7 +113,19 @@ class StageRun {
       begin_again();
       certify();
     }
+    follow_loading();
     observers_.look(s_);
+  }
+  // What the certificate says of the whole stage, and the peak that failure is measured by.
+  void follow_loading() {
+    Certificate& c = s_.certificate;
+    if (c.inertial_number == kNotLookedAt && !(loads_cell(s_, stage_) && has_network(s_)))
+      c.inertial_number = c.stress_error = std::numeric_limits<double>::quiet_NaN();
+    if (!std::isnan(c.inertial_number)) {
+      c.inertial_number = std::max(c.inertial_number, inertial_number(s_));
+      c.stress_error = std::max(c.stress_error, stress_error(s_));
+    }
+    end_.follow_peak();
   }
   // The solver anew, from a state that was changed under it.
   void begin_again() {
@@ -123,7 +137,6 @@ class StageRun {
 
   // Everything that is decided about a run is decided here, at fixed steps, whoever watches.
   std::optional<StageOutcome> over() {
-    end_.follow_peak();
     const std::string until(name(stage_.until));
     const bool waits = waits_for_equilibrium(stage_.until);
     StageOutcome outcome{s_.progress.stage,
@@ -131,7 +144,9 @@ class StageRun {
                          s_.time,
                          until,
                          waits ? s_.certificate.moving : 0,
-                         waits && s_.packing.links.size() == s_.packing.beams.size()};
+                         waits && s_.packing.links.size() == s_.packing.beams.size(),
+                         s_.certificate.inertial_number,
+                         s_.certificate.stress_error};
     if (end_.met()) return outcome;
     outcome.met = false;
     const std::string unit = " " + std::string(time_unit(s_.scene.system)) + ": ";

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "dem/run/loading.hpp"
 #include "dem/run/series.hpp"
 #include "dem/state/state.hpp"
 
@@ -46,6 +47,8 @@ void add_stage_columns(std::vector<SeriesColumn>& columns, const State<System>& 
       columns.push_back({"shear_rate", -s.cell_motion.shear_strain_rate * s.cell_motion.reference_length[1] /
                                            s.packing.cell->length[1]});
     }
+    columns.push_back({"inertial_number", inertial_number(s)});
+    columns.push_back({"stress_error", stress_error(s)});
   }
   columns.push_back({"static_solves", static_cast<double>(s.progress.solves)});
 }

@@ -43,6 +43,8 @@ struct StageOutcome {
   std::string reason;       // what ended it, or what is missing and the key to turn
   std::int64_t moving = 0;  // an equilibrium by its means, in which so many grains still move (Certificate::moving)
   bool nothing_touches = false;  // an equilibrium of grains that fly
+  double inertial_number = 0;    // the largest of the stage, and
+  double stress_error = 0;       // the largest (dem/run/loading.hpp); not a number where no network was loaded
 };
 
 struct RunOutcome {

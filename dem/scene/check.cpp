@@ -1,9 +1,20 @@
 #include "dem/scene/check.hpp"
 
+#include <algorithm>
+
 #include "dem/scene/text.hpp"
 
 namespace isostat {
 namespace {
+
+// By a stress or a rate.
+bool loads(const StageScene& s) {
+  const auto given = [](const auto& list) {
+    return std::any_of(list.begin(), list.end(), [](auto x) { return x.has_value(); });
+  };
+  return s.pressure || !s.pressures.empty() || given(s.stresses()) || given(s.strain_rates()) || s.stress_12 ||
+         s.shear_rate;
+}
 
 // Each direction has one master, and the end of a stage must be one that its directions can reach.
 void check_control(const Scene& scene, std::size_t i, std::vector<SceneConflict>& found) {
@@ -26,9 +37,15 @@ void check_control(const Scene& scene, std::size_t i, std::vector<SceneConflict>
   if (waits_for_equilibrium(s.until) && driven)
     found.push_back({key("until"), quoted_text(name(s.until)),
                      "a driven cell never comes to rest: \"strain\", \"failure\" or \"time\"", involved});
-  if ((s.until == Until::strain || s.until == Until::failure) && !driven)
+  if (s.until == Until::strain && !driven)
     found.push_back({key("until"), quoted_text(name(s.until)),
                      "needs a strain rate other than 0 along a direction, or of shear", involved});
+  if (s.until == Until::failure && !driven && !(s.ramp_time > 0 && loads(s)))
+    found.push_back({key("until"),
+                     quoted_text(name(s.until)),
+                     "needs a strain rate other than 0 along a direction, or of shear, or a stress that changes over " +
+                         key("ramp_time"),
+                     {key("until"), key("strain_rate_1"), key("strain_rate_2"), key("shear_rate"), key("ramp_time")}});
   if (s.until == Until::strain && !(s.strain > 0))
     found.push_back({key("strain"),
                      real_text(s.strain),
@@ -36,6 +53,26 @@ void check_control(const Scene& scene, std::size_t i, std::vector<SceneConflict>
                      {key("strain"), key("until")}});
   if (!s.pressures.empty() && s.pressure)
     found.push_back({key("pressures"), "", "either pressure or pressures", {key("pressure"), key("pressures")}});
+}
+
+// A ramp has something to bring, and comes to its end within the stage.
+void check_ramp(const Scene& scene, std::size_t i, std::vector<SceneConflict>& found) {
+  const StageScene& s = scene.stages[i];
+  if (!(s.ramp_time > 0)) return;
+  const auto key = [i](const char* name) { return stage_key(i, name); };
+  if (!loads(s))
+    found.push_back({key("ramp_time"),
+                     real_text(s.ramp_time),
+                     "only with a stress or strain rate, which it brings",
+                     {key("ramp_time"), key("pressure"), key("stress_1"), key("strain_rate_1")}});
+  const bool timed = s.until == Until::time;
+  const double length = timed ? s.time : s.max_time;
+  const char* const limit = timed ? "time" : "max_time";
+  if (s.ramp_time > length)
+    found.push_back({key("ramp_time"),
+                     real_text(s.ramp_time),
+                     "at most " + key(limit) + " = " + real_text(length) + ", else the stage is over before the ramp",
+                     {key("ramp_time"), key(limit), key("until")}});
 }
 
 void check_stages(const Scene& scene, std::vector<SceneConflict>& found) {
@@ -48,6 +85,7 @@ void check_stages(const Scene& scene, std::vector<SceneConflict>& found) {
     if (s.until != Until::time && s.time > 0)
       found.push_back({time, real_text(s.time), "only with " + until + " = \"time\"", {time, until}});
     check_control(scene, i, found);
+    check_ramp(scene, i, found);
   }
 }
 

@@ -81,7 +81,8 @@ std::string scene_documentation() {
       "The key `system` says what the grains are, disks where it is absent. Keys of all systems come first, then those "
       "that only one of them has; a key of another system is an error.\n\n"
       "Units of disks: a is the largest diameter, m the mass of a disk of that diameter, F0 the attraction of a "
-      "contact (without cohesion a P), T0 = sqrt(m a / F0), V* = sqrt(F0 D0 / m), F1 = max(F0, a P).\n\n"
+      "contact (without cohesion a P), T0 = sqrt(m a / F0), V* = sqrt(F0 D0 / m) (without cohesion see "
+      "stage.velocity), F1 = max(F0, a P).\n\n"
       "Triangles have units of their own, cm, g and s. Spheres have those of disks, or any consistent set: read a, m, "
       "F0 and T0 as 1 m, 1 kg, 1 N and 1 s for SI. Where a key of all systems has a unit of disks, it is of "
       "triangles and spheres:\n";

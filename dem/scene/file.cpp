@@ -119,6 +119,7 @@ class Parser {
     report_unknown();
     assign_all(scene, false);
     assign_all(scene, true);  // needs to know which keys apply
+    if (checks == SceneChecks::all) refuse_empty_paths(scene);
     if (scene.units) require_units();
     if (checks == SceneChecks::all) report_conflicts(scene);
     if (faults_.empty() && checks == SceneChecks::all) expand_load_paths(scene);
@@ -307,6 +308,14 @@ class Parser {
       }
     }
     scene.stages = std::move(stages);
+  }
+
+  // An empty list would leave the cell fixed, which a stage without any stress does.
+  void refuse_empty_paths(const Scene& scene) {
+    for (std::size_t stage = 0; stage < scene.stages.size(); ++stage)
+      if (const Given* g = find("stage." + std::to_string(stage) + ".pressures");
+          g && g->node->is_array() && scene.stages[stage].pressures.empty())
+        fault(g->file, g->line, g->key, text_of(*g->node), "at least one pressure, at which the path ends");
   }
 
   void require_units() {

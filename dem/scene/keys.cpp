@@ -47,6 +47,14 @@ std::vector<SceneKey> common_keys() {
        .range = positive,
        .condition = has_random_cell,
        .meaning = "L1 / L2 of the initial cell."},
+      {.name = "cell.damping",
+       .field = in<&S::cell, &CellScene::damping>,
+       .unit = "1/T0",
+       .range = not_negative,
+       .condition = has_cell,
+       .meaning =
+           "Rate at which the motion of edges under an imposed stress is damped, so that their inertia does not carry "
+           "them beyond balance; the paper's cell has none and swings (docs/measured/loading.md)."},
       {.name = "cell.rate_coupling",
        .field = in<&S::cell, &CellScene::rate_coupling>,
        .condition = has_cell,
@@ -108,6 +116,7 @@ std::vector<SceneKey> common_keys() {
        .field = in<&S::stages, &StageScene::pressures>,
        .unit = "F0/a",
        .range = not_negative,
+       .hidden_at_default = true,
        .meaning = "A load path: the stage is run once for each of these values of stage.pressure, in turn; velocities "
                   "are drawn in the first one only. The resolved scene has them as stages of their own."},
       {.name = "stage.stress_1",
@@ -147,13 +156,21 @@ std::vector<SceneKey> common_keys() {
        .systems = of_disks,
        .meaning = "Rate d(tilt)/dt / L2 imposed in place of a shear stress: positive moves the top of the cell along "
                   "direction 1, 0 keeps its angles."},
+      {.name = "stage.ramp_time",
+       .field = in<&S::stages, &StageScene::ramp_time>,
+       .unit = "T0",
+       .range = not_negative,
+       .meaning = "Imposed stresses and strain rates go linearly in so long a time from what they were (a stress that "
+                  "was not imposed: from the one that is there) to what the stage asks for, and the stage does not "
+                  "end before; 0: at once."},
       {.name = "stage.velocity",
        .field = in<&S::stages, &StageScene::velocity>,
        .unit = "V*",
        .range = not_negative,
        .systems = of_disks,
-       .meaning =
-           "Root mean square velocity drawn at the start of the stage, V* = sqrt(F0 D0 / m); 0: velocities are kept."},
+       .meaning = "Root mean square velocity drawn at the start of the stage, V* = sqrt(F0 D0 / m), without cohesion a "
+                  "sqrt(P / m) "
+                  "with P of the first stage that imposes a stress, or a/T0 if none does; 0: velocities are kept."},
       {.name = "stage.velocity_of",
        .field = in<&S::stages, &StageScene::velocity_of>,
        .choices = names(kVelocityOfNames),
@@ -198,8 +215,10 @@ std::vector<SceneKey> common_keys() {
        .choices = names(kUntilNames),
        .meaning =
            "What ends the stage: equilibrium; aggregated, i.e. equilibrium of a single cluster (disks); a time; the "
-           "strain of a driven direction; failure, when the stress of a driven direction has lost the part stage.drop "
-           "of the largest change it had; empty, when every grain has left a hopper; clogged, when none has left it "
+           "strain of a driven direction; failure, when the stress that a driven or ramped direction carries has lost "
+           "the "
+           "part stage.drop of its peak (docs/equilibrium.md); empty, when every grain has left a hopper; clogged, "
+           "when none has left it "
            "for stage.clog_time; separated, when two colliding grains have met and left each other. If it "
            "is not met within stage.max_time the exit code is 3."},
       {.name = "stage.time",
@@ -239,6 +258,12 @@ std::vector<SceneKey> common_keys() {
       {.name = "output.stages",
        .field = in<&S::output, &OutputScene::stages>,
        .meaning = "Keep the state at the end of each stage but the last: STATE.stage0.h5, STATE.stage1.h5, ..."},
+      {.name = "output.snapshot_interval",
+       .field = in<&S::output, &OutputScene::snapshot_interval>,
+       .unit = "T0",
+       .range = positive,
+       .absent = "none",
+       .meaning = "Time between two copies of the state, STATE.snapshot0001.h5, ..., at its multiples."},
       {.name = "output.snapshot_times",
        .field = in<&S::output, &OutputScene::snapshot_times>,
        .unit = "T0",

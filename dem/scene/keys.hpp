@@ -19,7 +19,7 @@ namespace isostat {
 using SceneField =
     std::variant<bool*, int*, std::uint64_t*, double*, std::optional<double>*, std::string*, std::vector<double>*,
                  Finish*, Until*, Springs*, VelocityOf*, SceneSystem*, ContainerShape*, ContainerWalls*, Integrator*,
-                 Arrangement*, ContactLaw*, BeamFailure*, NormalForce*, SphereArrangement*>;
+                 Arrangement*, ContactLaw*, BeamFailure*, NormalForce*, SphereArrangement*, SizeLaw*, ShareOf*>;
 
 // Systems that have a key. Keys of one name in two systems are two rows, with defaults and ranges of their own.
 class SystemSet {

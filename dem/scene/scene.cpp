@@ -7,7 +7,6 @@ Scene default_scene(SceneSystem system, std::size_t stages) {
   scene.system = system;
   StageScene stage;
   if (system == SceneSystem::triangles) {
-    scene.step.fraction = 0.6;
     scene.finish.drag = 50;
     scene.finish.quiet_time = 0.02;
     scene.finish.unchanged_time = 0.1;
@@ -15,7 +14,6 @@ Scene default_scene(SceneSystem system, std::size_t stages) {
     stage.max_strain_rate = 1;
     stage.max_time = 60;
   }
-  if (system == SceneSystem::spheres) scene.step.fraction = 0.1;
   scene.stages.assign(stages, stage);
   return scene;
 }

@@ -31,7 +31,7 @@ inline constexpr std::array<std::string_view, 2> kIntegratorNames{"verlet", "gea
 // [step]: of disks dt = fraction * sqrt(m_max / K_N), of triangles dt = fraction / omega_max of the smallest grain, of
 // spheres fraction * sqrt(m / k) of the smallest.
 struct StepScene {
-  double fraction = 0.06;  // c [-]
+  std::optional<double> fraction;  // c [-]; absent: the default of the system, or what its smallest grains bear
   Integrator integrator = Integrator::verlet;
   friend bool operator==(const StepScene&, const StepScene&) = default;
 };
@@ -40,6 +40,7 @@ struct StepScene {
 struct CellScene {
   double inertia = 0.3;        // M in units of the sum of grain masses (PHYSICS.md: cell inertia)
   double aspect = 1.0;         // [-] L1 / L2 of the initial cell
+  double damping = 0;          // [1/T0] of its strain rate under an imposed stress; the paper has none
   bool rate_coupling = false;  // add -(Ldot/L) v to the peculiar acceleration
   friend bool operator==(const CellScene&, const CellScene&) = default;
 };
@@ -96,7 +97,8 @@ struct StageScene {
   std::optional<double> strain_rate_1, strain_rate_2, strain_rate_3;
   std::optional<double> stress_12;   // [F0/a] shear stress sigma_12; of disks
   std::optional<double> shear_rate;  // [1/T0] d(tilt)/dt / L2 in place of it; of disks
-  double velocity = 0.0;             // V0 [V* = sqrt(F0 D0 / m)] rms velocity drawn at the start; 0: keep
+  double ramp_time = 0;              // [T0] in which imposed stresses and rates come to these values; 0: at once
+  double velocity = 0.0;  // V0 [V*, velocity_unit() of dem/solver/agitation.hpp] rms drawn at the start; 0: keep
   VelocityOf velocity_of = VelocityOf::vector;
   double max_strain_rate = 0.05;           // [1/T0] cap of the cell's strain rate; 0: no cap
   std::optional<double> max_edge_speed;    // [a/T0] cap of |Ldot| of each edge that a stress controls; absent: none
@@ -159,8 +161,12 @@ struct OutputScene {
   double series_interval = 1.0;                  // [T0]
   bool energies = false;                         // energy ledger in the series (costs a tally kernel)
   bool stages = false;                           // keep the state at the end of each stage but the last
+  std::optional<double> snapshot_interval;       // [T0] none: only at the times and solid fractions
   std::vector<double> snapshot_times;            // [T0]
   std::vector<double> snapshot_solid_fractions;  // [-]
+  bool keeps_snapshots() const {
+    return snapshot_interval || !snapshot_times.empty() || !snapshot_solid_fractions.empty();
+  }
   friend bool operator==(const OutputScene&, const OutputScene&) = default;
 };
 

@@ -11,8 +11,8 @@ namespace {
 
 std::string_view type_name(const SceneField& field) {
   constexpr std::array<std::string_view, std::variant_size_v<SceneField>> names{
-      "boolean", "integer", "integer", "real", "real", "text", "list of reals", "text", "text", "text",
-      "text",    "text",    "text",    "text", "text", "text", "text",          "text", "text"};
+      "boolean", "integer", "integer", "real", "real", "text", "list of reals", "text", "text", "text", "text",
+      "text",    "text",    "text",    "text", "text", "text", "text",          "text", "text", "text"};
   return names[field.index()];
 }
 

@@ -11,10 +11,22 @@
 
 namespace isostat {
 
+// V* [a/T0] of a scene. With cohesion sqrt(F0 D0 / m), at which the attraction of a contact brings two grains together.
+// Without it a sqrt(P / m) (in space a sqrt(a P / m)), P of the first stage that imposes a stress: the energy of a
+// grain is then that of lifting the load of its cross-section by its diameter. Without both a/T0.
+template <class System>
+double velocity_unit(const State<System>& s) {
+  if (s.law.attraction > 0) return std::sqrt(s.law.attraction * s.law.attraction_range);
+  for (const StageScene& stage : s.scene.stages)
+    if (const auto p = largest_stress(imposed_stress<System::dimension>(stage)); p && *p != 0)
+      return std::sqrt(std::abs(*p));
+  return 1;
+}
+
 // The rms of |v| that a stage asks for [a/T0].
 template <class System>
 double drawn_speed(const State<System>& s, const StageScene& stage) {
-  const double speed = stage.velocity * std::sqrt(s.law.attraction * s.law.attraction_range);
+  const double speed = stage.velocity * velocity_unit(s);
   return stage.velocity_of == VelocityOf::component ? std::sqrt(System::dimension) * speed : speed;
 }
 

@@ -1,6 +1,7 @@
 // The degrees of freedom of the cell (Gilabert 2007, Eq. 3):  M d2(eps_a)/dt2 = sigma_imposed - sigma_aa, with
 // eps_a' = -L_a' / L0_a, compression positive, L0 the cell at the start of the stage, and caps on the rate and on
-// |L_a'|. A direction may have its rate imposed instead.
+// |L_a'|. A direction may have its rate imposed instead. Beyond the paper the cell may be damped, and what is imposed
+// may come by a ramp.
 //
 // Shear is one more, with the same mass: eps_12' = -s / L0_2, where s is the part of the tilt's rate that is no stretch
 // of the first edge:  tilt' = (L1'/L1) tilt + s. So the velocity gradient is L1'/L1, L2'/L2 and s/L2, each driven by
@@ -17,6 +18,16 @@
 
 namespace isostat {
 
+// Imposed stresses and rates come linearly in time from what they were to what is asked for.
+template <int D>
+struct CellRamp {
+  double start = 0, length = 0;             // [T0]; length 0: at once
+  Vec<D> stress{};                          // [F0/a] at the start, along edges with an imposed stress
+  Vec<D> strain_rate{};                     // [1/T0] at the start, along the others
+  double shear_stress = 0, shear_rate = 0;  // [F0/a], [1/T0] at the start, as those of CellControl
+  double left(double time) const { return length > 0 ? std::clamp(1 - (time - start) / length, 0.0, 1.0) : 0.0; }
+};
+
 template <int D>
 struct CellControl {
   ImposedStress<D> stress;     // [F0/a]
@@ -25,9 +36,28 @@ struct CellControl {
   double max_strain_rate = 0;  // [1/T0]; 0: no cap
   double max_edge_speed = std::numeric_limits<double>::infinity();  // [a/T0] of |Ldot| under an imposed stress
   double inertia = 1;                                               // M [m]
+  double damping = 0;                                               // [1/T0] of the cell's strain rate
   bool rate_coupling = false;                                       // peculiar velocities also feel -(Ldot/L) v
-  bool shears() const { return stress.shear || shear_rate != 0; }
-  bool moves() const { return largest_stress(stress) || strain_rate != Vec<D>{} || shears(); }
+  CellRamp<D> ramp;
+  bool shears() const { return stress.shear || shear_rate != 0 || (ramp.length > 0 && ramp.shear_rate != 0); }
+  bool moves() const {
+    return largest_stress(stress) || strain_rate != Vec<D>{} || shears() ||
+           (ramp.length > 0 && ramp.strain_rate != Vec<D>{});
+  }
+  // What is imposed at a time: a function of the time alone, after the ramp the same to the bit as without one.
+  CellControl at(double time) const {
+    const double left = ramp.left(time);
+    if (left == 0) return *this;
+    CellControl now = *this;
+    for (int a = 0; a < D; ++a) {
+      auto& imposed = now.stress[static_cast<std::size_t>(a)];
+      if (imposed) *imposed += left * (ramp.stress[a] - *imposed);
+      now.strain_rate[a] += left * (ramp.strain_rate[a] - now.strain_rate[a]);
+    }
+    if (now.stress.shear) *now.stress.shear += left * (ramp.shear_stress - *now.stress.shear);
+    now.shear_rate += left * (ramp.shear_rate - now.shear_rate);
+    return now;
+  }
 };
 
 // The velocity gradient that the bodies' affine velocities have [1/T0].
@@ -46,6 +76,7 @@ CellFlow<D> advance_cell(const CellControl<D>& control, double dt, CellMotion<D>
   const PeriodicCell<D> old = cell;
   const auto driven = [&](double stress, double measured, double before, double length) {
     double rate = before + dt * (stress - measured) / control.inertia;
+    if (control.damping > 0) rate /= 1 + control.damping * dt;
     if (control.max_strain_rate > 0) rate = std::clamp(rate, -control.max_strain_rate, control.max_strain_rate);
     const double fastest = control.max_edge_speed / length;
     return std::clamp(rate, -fastest, fastest);

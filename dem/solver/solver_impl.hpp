@@ -57,7 +57,7 @@ auto Solver<System>::move_cell() -> MotionStep<D> {
   step.time_step = dt_, step.time = time_ + dt_;
   step.keep_spin = 1 - drag_ * dt_;
   step.keep.fill(step.keep_spin);
-  if (control_.moves()) flow_ = advance_cell(control_, dt_, cell_motion_, *cell_, step);
+  if (control_.moves()) flow_ = advance_cell(control_.at(time_), dt_, cell_motion_, *cell_, step);
   return step;
 }
 
@@ -99,7 +99,7 @@ void Solver<System>::snapshot(State<System>& s) const {
   s.time = time_, s.step = step_, s.time_step = dt_;
   s.packing.cell = cell_;
   s.cell_motion = cell_motion_;
-  s.imposed_stress = control_.stress;
+  s.imposed_stress = control_.at(time_).stress;
   engine_.snapshot(s);
 }
 

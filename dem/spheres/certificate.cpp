@@ -88,7 +88,7 @@ Certificate evaluate_certificate(const SpherePacking& packing, const SphereLaw& 
 
 Certificate evaluate_certificate(const State<Spheres>& state) {
   Certificate c = evaluate_certificate(state.packing, state.law, state.imposed_stress, state.scene.equilibrium);
-  c.finishing = state.certificate.finishing;
+  keep_record(c, state.certificate);
   return c;
 }
 

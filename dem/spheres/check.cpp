@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dem/sample/grain_sizes.hpp"
 #include "dem/scene/text.hpp"
 #include "dem/spheres/sample.hpp"
 #include "dem/spheres/time_step.hpp"
@@ -22,11 +23,14 @@ double largest_force(const Scene& scene, const StageScene& stage) {
 
 void check_grains(const Scene& scene, std::vector<SceneConflict>& found) {
   const SphereGrainsScene& g = scene.sphere_grains;
-  if (g.file.empty() && g.diameter_min > g.diameter_max)
-    found.push_back({"grains.diameter_min",
-                     real_text(g.diameter_min),
-                     "at most grains.diameter_max = " + real_text(g.diameter_max),
-                     {"grains.diameter_min", "grains.diameter_max"}});
+  if (!g.file.empty()) return;
+  for (SceneConflict& c : size_conflicts(g, 3)) found.push_back(std::move(c));
+  if (g.arrangement != SphereArrangement::random && g.law() != SizeLaw::uniform && g.law() != SizeLaw::power_law)
+    found.push_back({"grains.sizes",
+                     quoted_text(kSizeLawNames[static_cast<std::size_t>(g.sizes)]),
+                     "\"uniform\" or \"power-law\", since grains.arrangement is " +
+                         quoted_text(kSphereArrangementNames[static_cast<std::size_t>(g.arrangement)]),
+                     {"grains.sizes", "grains.arrangement"}});
 }
 
 // Radii, rooms and trials of insertion, in the words of the scene.
@@ -72,37 +76,24 @@ void check_stiffness(const Scene& scene, std::vector<SceneConflict>& found) {
 }
 
 void check_step(const Scene& scene, std::vector<SceneConflict>& found) {
+  if (!scene.step.fraction) return;
   const SphereGrainsScene& g = scene.sphere_grains;
-  SphereLawScene stiffest = scene.sphere_law;
-  for (const StageScene& s : scene.stages) stiffest.friction = std::max(stiffest.friction, s.friction.value_or(0));
-  const SphereLaw law = resolve(stiffest);
-  const double radius = g.file.empty() ? g.diameter_min / 2 : 0.5;
-  double bound = critical_fraction(law, radius, g.density);
-  if (g.second_share > 0) {
-    SphereLaw second = law;
-    second.grain = resolve(g, stiffest).second;
-    bound = std::min(bound, critical_fraction(second, radius, g.density));
-  }
-  if (scene.step.fraction >= bound)
+  const double bound = critical_fraction(scene, g.file.empty() ? g.diameter_min / 2 : 0.5);
+  if (*scene.step.fraction >= bound)
     found.push_back({"step.fraction",
-                     real_text(scene.step.fraction),
-                     "unstable for the smallest grain of this law; below " + real_text(bound),
+                     real_text(*scene.step.fraction),
+                     "unstable for the smallest grain of this law; below " + real_text(bound) +
+                         ", or without this key as the grains bear",
                      {"step.fraction", "law.friction", "law.rolling_stiffness", "law.tangential_stiffness"}});
 }
 
 void check_stages(const Scene& scene, std::vector<SceneConflict>& found) {
   for (std::size_t i = 0; i < scene.stages.size(); ++i) {
     const StageScene& s = scene.stages[i];
-    const std::string until = stage_key(i, "until"), velocity = stage_key(i, "velocity"),
-                      pressure = stage_key(i, "pressure");
+    const std::string until = stage_key(i, "until"), pressure = stage_key(i, "pressure");
     const bool cohesive = scene.sphere_law.attraction > 0;
     if (s.until == Until::aggregated && !cohesive)
       found.push_back({until, quoted_text(name(s.until)), "needs law.attraction > 0", {until, "law.attraction"}});
-    if (s.velocity > 0 && !cohesive)
-      found.push_back({velocity,
-                       real_text(s.velocity),
-                       "0, since law.attraction is 0: the unit V* = sqrt(F0 D0 / m) vanishes",
-                       {velocity, "law.attraction"}});
     if (waits_for_equilibrium(s.until) && !(largest_force(scene, s) > 0))
       found.push_back({pressure,
                        s.pressure ? real_text(*s.pressure) : "",

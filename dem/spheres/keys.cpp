@@ -1,6 +1,6 @@
 #include "dem/spheres/keys.hpp"
 
-#include "dem/scene/key_rows.hpp"
+#include "dem/scene/size_rows.hpp"
 
 namespace isostat {
 namespace {
@@ -90,29 +90,11 @@ std::vector<SceneKey> grain_keys() {
        .meaning = "Number N of spheres."},
       {.name = "grains.solid_fraction",
        .field = in<&S::sphere_grains, &G::solid_fraction>,
-       .range = {0, 0.36, true, false},
+       .range = {0, 1, true, true},
        .condition = is_random,
-       .meaning = "Solid fraction Phi_I of the initial state. Equal spheres placed at random without overlap saturate "
-                  "at 0.38, hence the limit."},
-      {.name = "grains.diameter_min",
-       .field = in<&S::sphere_grains, &G::diameter_min>,
-       .unit = "a",
-       .range = positive,
-       .condition = random_start,
-       .meaning = "Smallest diameter."},
-      {.name = "grains.diameter_max",
-       .field = in<&S::sphere_grains, &G::diameter_max>,
-       .unit = "a",
-       .range = positive,
-       .condition = random_start,
-       .meaning = "Largest diameter."},
-      {.name = "grains.exponent",
-       .field = in<&S::sphere_grains, &G::exponent>,
-       .range = not_negative,
-       .absent = "uniform diameters",
-       .condition = random_start,
-       .meaning = "b of the size distribution N(r) ~ r^-b between the two diameters (Eq. 1 of the soft-particles "
-                  "paper has 3.5)."},
+       .meaning = "Solid fraction Phi_I of the initial state. Up to 0.36 the spheres are placed at random without "
+                  "overlap (equal ones saturate at 0.38); beyond it they are pushed apart until none overlaps, which "
+                  "succeeds below the density at which they jam, about 0.64."},
       {.name = "grains.density",
        .field = in<&S::sphere_grains, &G::density>,
        .unit = "m/a^3",
@@ -149,11 +131,6 @@ std::vector<SceneKey> grain_keys() {
        .absent = "0.7 grains.density",
        .condition = has_soft,
        .meaning = "Mass of what a soft-particle holds over the volume of its shell."},
-      {.name = "grains.file",
-       .field = in<&S::sphere_grains, &G::file>,
-       .meaning =
-           "A state file or a plain-text network in space to start from instead of random positions; relative to "
-           "the directory in which the program runs. Empty: random."},
   };
 }
 
@@ -285,6 +262,7 @@ std::vector<SceneKey> law_keys() {
       {.name = "step.fraction",
        .field = in<&S::step, &StepScene::fraction>,
        .range = from(kLeastStepFraction, kInfinity),
+       .absent = "0.1, or half the bound if that is less",
        .meaning = "c of the time step dt = c sqrt(m / k) of the smallest grain, k the normal stiffness of its contact "
                   "with another as small; Hertz: at an overlap of a tenth of its radius. Beyond the stability bound it "
                   "is refused."},
@@ -310,7 +288,9 @@ std::vector<SceneKey> stage_keys() {
        .unit = "V*",
        .range = not_negative,
        .meaning =
-           "Root mean square velocity drawn at the start of the stage, V* = sqrt(F0 D0 / m); 0: velocities are kept."},
+           "Root mean square velocity drawn at the start of the stage, V* = sqrt(F0 D0 / m), without cohesion "
+           "a sqrt(a P / m) with P of the first stage that imposes a stress, or a/T0 if none does; 0: velocities are "
+           "kept."},
       {.name = "stage.velocity_of",
        .field = in<&S::stages, &StageScene::velocity_of>,
        .choices = names(kVelocityOfNames),
@@ -340,9 +320,14 @@ std::vector<SceneKey> stage_keys() {
 }  // namespace
 
 std::vector<SceneKey> sphere_keys() {
+  using namespace key_rows;
   std::vector<SceneKey> rows;
-  for (const auto& part : {grain_keys(), law_keys(), stage_keys()}) rows.insert(rows.end(), part.begin(), part.end());
-  return key_rows::of(SceneSystem::spheres, std::move(rows));
+  for (const auto& part :
+       {grain_keys(), size_rows<&Scene::sphere_grains, random_start.holds>(random_start.in_words, "Largest diameter."),
+        file_rows<&Scene::sphere_grains, &SphereGrainsScene::file, &SphereGrainsScene::box>(), law_keys(),
+        stage_keys()})
+    rows.insert(rows.end(), part.begin(), part.end());
+  return of(SceneSystem::spheres, std::move(rows));
 }
 
 }  // namespace isostat

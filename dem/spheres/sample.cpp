@@ -6,10 +6,11 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "dem/files/packing_file.hpp"
 #include "dem/input_error.hpp"
+#include "dem/sample/grain_sizes.hpp"
+#include "dem/sample/grains_file.hpp"
+#include "dem/sample/push_apart.hpp"
 #include "dem/sample/random_placement.hpp"
-#include "dem/sample/size_distribution.hpp"
 #include "dem/scene/check.hpp"
 #include "dem/scene/text.hpp"
 #include "dem/solver/random.hpp"
@@ -21,6 +22,8 @@ namespace {
 
 constexpr std::uint64_t kMaterialStream = std::uint64_t{1} << 48;
 constexpr int kMostTries = 20000;            // per sphere
+constexpr double kDensestAtRandom = 0.36;    // [-] solid fraction that random sequential placement reaches
+constexpr double kBeforePushing = 0.3;       // [-] at which the spheres of a dense start are placed
 constexpr double kMostOverlapAtStart = 0.3;  // [R_i + R_j] beyond, Hertz's law says nothing
 
 State<Spheres> without_bodies(const Scene& scene, std::uint64_t seed) {
@@ -37,8 +40,29 @@ SphereDensities densities_of(const SphereGrainsScene& g) {
   return {g.density, g.second_density.value_or(g.density), g.soft_density.value_or(0.7 * g.density)};
 }
 
+// [T0] the same for grains lighter than their material.
+double contact_time_of_light(const State<Spheres>& s) {
+  const SpherePacking& p = s.packing;
+  const SphereDensities densities = densities_of(s.scene.sphere_grains);
+  SphereLaw law = resolve(s.scene.sphere_grains, s.scene.sphere_law);
+  double time = INFINITY;
+  for (std::size_t k = 0; k < p.bodies.size(); ++k) {
+    const SphereKind kind = p.kind.empty() ? SphereKind::grain : p.kind[k];
+    if (kind == SphereKind::soft) continue;
+    const double r = p.bodies.radius[k], density = p.bodies.mass[k] / (4.0 / 3.0 * std::numbers::pi * (r * r * r));
+    const bool second = kind == SphereKind::second;
+    if (!(density < (1 - 1e-9) * (second ? densities.second : densities.grain))) continue;
+    SphereLaw of_kind = law;
+    if (second) of_kind.grain = law.second;
+    time = std::min(time, contact_time(of_kind, r, density));
+  }
+  return time;
+}
+
 void set_time_step(State<Spheres>& s) {
-  s.time_step = s.scene.step.fraction * shortest_contact_time(s.scene, smallest_radius(s.packing.bodies));
+  const double smallest = smallest_radius(s.packing.bodies);
+  s.time_step =
+      step_fraction(s.scene, smallest) * std::min(shortest_contact_time(s.scene, smallest), contact_time_of_light(s));
   if (s.packing.cell) s.cell_motion.reference_length = s.packing.cell->length;
 }
 
@@ -53,10 +77,12 @@ void draw_materials(State<Spheres>& s) {
     if (random.uniform() < share && kind == SphereKind::grain) kind = SphereKind::second;
 }
 
-// What follows from radii and kinds.
-void complete(State<Spheres>& s) {
+// What follows from radii and kinds; ratios: of densities over that of a grain's material, of the first grains.
+void complete(State<Spheres>& s, const std::vector<double>& ratios = {}) {
   draw_materials(s);
   set_sphere_inertia(s.packing, densities_of(s.scene.sphere_grains));
+  Bodies<3>& b = s.packing.bodies;
+  for (std::size_t k = 0; k < ratios.size(); ++k) b.mass[k] *= ratios[k], b.inertia[k] *= ratios[k];
   set_time_step(s);
 }
 
@@ -65,14 +91,28 @@ void refuse_without_cell(const Scene& scene, const std::string& path) {
   std::vector<Fault> faults;
   for (std::size_t k = 0; k < scene.stages.size(); ++k)
     for (const std::string& key : cell_keys(scene.stages[k], k))
-      faults.push_back({"scene", 0, key, "", "needs a periodic cell; the packing of " + path + " is isolated"});
+      faults.push_back({"scene", 0, key, "",
+                        "needs a periodic cell; the packing of " + path + " is isolated (grains.box gives it one)"});
   if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+// Masses of a file count where grains of one kind differ in density.
+void weigh(SpherePacking& p, const SphereDensities& densities, bool ratios_given) {
+  Bodies<3>& b = p.bodies;
+  const auto are = [&](SphereKind kind) {
+    return densities_differ(b, [&](std::size_t k) { return (p.kind.empty() ? SphereKind::grain : p.kind[k]) == kind; });
+  };
+  if (!ratios_given && !are(SphereKind::grain) && !are(SphereKind::second) && !are(SphereKind::soft))
+    return set_sphere_inertia(p, densities);
+  if (!ratios_given) return;
+  const double unit = densities.grain / (6 / std::numbers::pi);  // of a density in a column
+  for (std::size_t k = 0; k < b.size(); ++k) b.mass[k] *= unit, b.inertia[k] *= unit;
 }
 
 // grains.file: bodies, cell and springs of a packing under the scene's law, at time 0.
 State<Spheres> state_from_file(const Scene& scene, std::uint64_t seed) {
   const std::string& path = scene.sphere_grains.file;
-  PackingFile file = read_packing(path);
+  PackingFile file = read_grains_file(path, scene.sphere_grains.box);
   if (!file.packing_3d) throw InputError(path, 0, "grains.file", path, "a packing of spheres, in space, is wanted");
   State<Spheres> state = without_bodies(scene, seed);
   static_cast<Packing<3>&>(state.packing) = std::move(*file.packing_3d);
@@ -82,7 +122,7 @@ State<Spheres> state_from_file(const Scene& scene, std::uint64_t seed) {
   if (packing.bodies.size() == 0) throw InputError(path, 0, "grains.file", path, "it holds no grain");
   if (!packing.cell) refuse_without_cell(scene, path);
   if (!file.links_given) packing.links.clear();
-  set_sphere_inertia(state.packing, densities_of(scene.sphere_grains));
+  weigh(state.packing, densities_of(scene.sphere_grains), file.densities_given);
   const Bodies<3>& b = packing.bodies;
   for (const Link<3>& l : touching_links(packing, 0.0)) {
     const auto i = static_cast<std::size_t>(l.i), j = static_cast<std::size_t>(l.j);
@@ -138,7 +178,8 @@ InsertionScene insertion_of(const SphereGrainsScene& g) {
   i.room = g.arrangement == SphereArrangement::insertion ? InsertionRoom::box : InsertionRoom::shell;
   i.shell_radius = g.shell_radius;
   i.box = {g.edge, g.edge, g.edge};
-  i.radius_min = g.diameter_min / 2, i.radius_max = g.diameter_max / 2, i.exponent = g.exponent.value_or(0);
+  i.radius_min = g.diameter_min / 2, i.radius_max = g.diameter_max / 2;
+  i.exponent = g.exponent.value_or(0) + (g.share_of == ShareOf::volume ? 3 : 0);
   i.volume_factor = g.volume_factor, i.trials = g.trials;
   i.solid_fraction = g.inserted_fraction;
   i.soft_share = g.soft_share, i.soft_radius = g.soft_radius;
@@ -196,13 +237,10 @@ State<Spheres> initial_spheres(const Scene& scene, std::uint64_t seed) {
   if (g.arrangement != SphereArrangement::random) return inserted_spheres(scene, seed);
   State<Spheres> state = without_bodies(scene, seed);
   Random random(seed);
-  std::vector<double> diameters(static_cast<std::size_t>(g.count));
+  DrawnSizes drawn = GrainSizes(g, 3).draw(static_cast<std::size_t>(g.count), random);
+  std::vector<double>& diameters = drawn.diameter;
   double volume = 0;
-  const SizeDistribution sizes{g.diameter_min, g.diameter_max, g.exponent.value_or(0)};
-  for (double& d : diameters) {
-    d = sizes.draw(random);
-    volume += std::numbers::pi / 6 * (d * d * d);
-  }
+  for (const double d : diameters) volume += std::numbers::pi / 6 * (d * d * d);
   if (g.soft_share > 0) {
     const double one = 4 * std::numbers::pi / 3 * (g.soft_radius * g.soft_radius * g.soft_radius);
     const double softs = std::ceil(g.soft_share / (1 - g.soft_share) * volume / one);
@@ -222,10 +260,13 @@ State<Spheres> initial_spheres(const Scene& scene, std::uint64_t seed) {
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t p, std::size_t q) { return diameters[p] > diameters[q]; });
   const Frame<3> frame{{}, state.packing.cell->length, true};
-  Placement<3> placement(frame, diameters[order[0]], state.law.attraction_range, n);
+  const bool dense = g.solid_fraction > kDensestAtRandom;
+  const double part = dense ? std::cbrt(kBeforePushing / g.solid_fraction) : 1.0;
+  const double gap = state.law.attraction_range;
+  Placement<3> placement(frame, diameters[order[0]], gap, n);
   for (const std::size_t k : order) {
     b.id[k] = static_cast<std::int64_t>(k);
-    b.radius[k] = diameters[k] / 2;
+    b.radius[k] = part * diameters[k] / 2;
     int tries = 0;
     Vec3 r;
     do {
@@ -237,7 +278,14 @@ State<Spheres> initial_spheres(const Scene& scene, std::uint64_t seed) {
     b.position[k] = r;
     placement.add(r, k);
   }
-  complete(state);
+  if (dense) {
+    for (std::size_t k = 0; k < n; ++k) b.radius[k] = diameters[k] / 2;
+    if (!push_apart(*state.packing.cell, gap, b))
+      throw InputError("scene", 0, "grains.solid_fraction", real_text(g.solid_fraction),
+                       "the spheres jam before; lower it (those of like sizes jam at about 0.64, and sooner if "
+                       "law.attraction_range keeps them apart)");
+  }
+  complete(state, drawn.density);
   state.random_counter = random.counter();
   return state;
 }

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "dem/scene/sizes.hpp"
+
 namespace isostat {
 
 // Where spheres begin: N of them at random in a periodic cell; by hierarchical insertion (dem/sample/insertion.hpp) in
@@ -17,7 +19,7 @@ inline constexpr std::array<std::string_view, 4> kSphereArrangementNames{"random
                                                                          "soft-particle-pair"};
 
 // [grains]
-struct SphereGrainsScene {
+struct SphereGrainsScene : SizesScene {
   SphereArrangement arrangement = SphereArrangement::random;
   double edge = 8;                          // [a] of the cell, by insertion
   double shell_radius = 1;                  // R_s [a] of a soft-particle
@@ -26,16 +28,14 @@ struct SphereGrainsScene {
   std::optional<double> inserted_fraction;  // [-] reached by the choice of I, by insertion
   int count = 1000;
   double solid_fraction = 0.3;            // [-] Phi_I
-  double diameter_min = 0.5;              // [a]
-  double diameter_max = 1.0;              // [a]
-  std::optional<double> exponent;         // b of N(r) ~ r^-b; absent: uniform between the two diameters
   double density = 6 / std::numbers::pi;  // [m/a^3] a sphere of diameter a has the mass m
   double second_share = 0;                // of the grains, by number, are of the second material
   std::optional<double> second_density;   // [m/a^3] of them; absent: density
   double soft_share = 0;                  // of the volume belongs to soft-particles
   double soft_radius = 0;                 // R_s [a] of theirs
   std::optional<double> soft_density;     // [m/a^3] of what one holds over the volume of its shell; absent: .7 density
-  std::string file;                       // a state or .net file to start from instead; empty: random
+  std::string file;                       // a packing to start from instead; empty: random
+  std::vector<double> box;                // [a] edges of the cell of a file that has none; empty: it stays isolated
   friend bool operator==(const SphereGrainsScene&, const SphereGrainsScene&) = default;
 };
 

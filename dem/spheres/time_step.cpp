@@ -42,4 +42,20 @@ double critical_fraction(const SphereLaw& law, double radius, double density) {
   return 2 / std::sqrt(std::max(translation, rotation)) * std::sqrt(normal / mass);
 }
 
+double critical_fraction(const Scene& scene, double smallest_radius) {
+  const SphereGrainsScene& g = scene.sphere_grains;
+  SphereLawScene stiffest = scene.sphere_law;
+  for (const StageScene& s : scene.stages) stiffest.friction = std::max(stiffest.friction, s.friction.value_or(0));
+  SphereLaw law = resolve(g, stiffest);
+  const double bound = critical_fraction(law, smallest_radius, g.density);
+  if (!(g.second_share > 0)) return bound;
+  law.grain = law.second;
+  return std::min(bound, critical_fraction(law, smallest_radius, g.density));
+}
+
+double step_fraction(const Scene& scene, double smallest_radius) {
+  constexpr double kReference = 0.1, kOfBound = 0.5;
+  return scene.step.fraction.value_or(std::min(kReference, kOfBound * critical_fraction(scene, smallest_radius)));
+}
+
 }  // namespace isostat

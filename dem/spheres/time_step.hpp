@@ -20,5 +20,10 @@ double shortest_contact_time(const Scene& scene, double smallest_radius);
 // Largest stable step over contact_time(), dt < 2 / omega_max with omega_max bounded for a grain among at most twelve
 // neighbours as small: translation omega^2 = 2 * 12 (K_N + 2 K_T) / (3 m), rotation 2 * 8 (K_T R^2 + K_r) / I.
 double critical_fraction(const SphereLaw& law, double radius, double density);
+// Of the stiffest law of a scene's materials and stages.
+double critical_fraction(const Scene& scene, double smallest_radius);
+
+// c of the scene, or 0.1 and at most half of what is stable.
+double step_fraction(const Scene& scene, double smallest_radius);
 
 }  // namespace isostat

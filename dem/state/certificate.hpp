@@ -23,10 +23,19 @@ struct Certificate {
   double smallest_margin = 1;        // min over contacts of 1 - |T| / (mu N_e), and the same for rolling
   std::int64_t moving = 0;           // grains that still move: whose own kinetic energy is above the tolerance of the
                                      // mean, or that a static solve found driven in floppy or very soft modes
+  // The largest of the stage so far (dem/run/loading.hpp); not a number where a stage does not load a network.
+  double inertial_number = 0;  // [-]
+  double stress_error = 0;     // [-] of the imposed stresses
   bool pressure_controlled = false;
   bool equilibrated = false;
   std::string finishing = "none";  // which finishing method acted, if any
 };
+
+// What a certificate says of how the packing came here, which its positions and forces do not tell.
+inline void keep_record(Certificate& c, const Certificate& before) {
+  c.finishing = before.finishing;
+  c.inertial_number = before.inertial_number, c.stress_error = before.stress_error;
+}
 
 // max that keeps a NaN: a run that has blown up must never look balanced.
 inline double largest_of(double a, double b) { return std::isnan(a) || b <= a ? a : b; }

@@ -43,7 +43,13 @@ struct StageProgress {
   double start_stiffness = 0;     // K_N [F0/a] when the stage began
   Vec<D> start_stress{};          // [F0/a] static stress sigma_11, sigma_22(, sigma_33) when the stage began
   double start_shear_stress = 0;  // [F0/a] and sigma_12
-  double peak_stress = 0;         // [F0/a] largest change of the stress of a driven direction so far
+  Vec<D> ramp_stress{};           // [F0/a] imposed when the stage began, where nothing was: static
+  Vec<D> ramp_rate{};             // [1/T0] strain rate imposed then
+  double ramp_shear_stress = 0;   // [F0/a] and of shear
+  double ramp_shear_rate = 0;     // [1/T0]
+  double carried_stress = 0;      // [F0/a] that the tested direction carries, a mean over the last looks
+  double carried_at = 0;          // [T0] of these the last
+  double peak_stress = 0;         // [F0/a] the largest carried stress so far
   bool drifting = false;          // static solves have silenced the vibrations, but not what floppy modes still do
   std::int64_t solves = 0;        // static solves of the run so far that have moved the packing, in no time
   std::string unmet;              // of every stage so far that did not meet its end, why; empty: all did

@@ -92,7 +92,9 @@ std::optional<StateFault> run_fault(const State<System>& s) {
     return StateFault{"progress", "stage is not one of the scene's"};
   if (!finite(s.progress.start_time) || !finite(s.progress.quiet_since) || !finite(s.progress.unchanged_since) ||
       !finite(s.progress.start_stiffness) || !finite(s.progress.start_stress) ||
-      !finite(s.progress.start_shear_stress) || !finite(s.progress.peak_stress))
+      !finite(s.progress.start_shear_stress) || !finite(s.progress.ramp_stress) || !finite(s.progress.ramp_rate) ||
+      !finite(s.progress.ramp_shear_stress) || !finite(s.progress.ramp_shear_rate) ||
+      !finite(s.progress.carried_stress) || !finite(s.progress.carried_at) || !finite(s.progress.peak_stress))
     return StateFault{"progress", "a number that is not finite"};
   const Surroundings& around = s.surroundings;
   if (!finite(around.start_offset) || !finite(around.start_angle) || !finite(around.mass_left) ||

@@ -124,8 +124,12 @@ Certificate evaluate_certificate(const TrianglePacking& p, const TriangleLaw& la
 
 Certificate evaluate_certificate(const State<TriangleGrains>& s) {
   Certificate c = evaluate_certificate(s.packing, s.law, s.imposed_stress, s.scene.equilibrium, s.scene.gravity);
-  c.finishing = s.certificate.finishing;
+  keep_record(c, s.certificate);
   return c;
+}
+
+double inertial_time(const State<TriangleGrains>& s, double pressure) {
+  return std::sqrt(heaviest(s.packing) / pressure);
 }
 
 std::size_t loaded_contacts(const State<TriangleGrains>& s) {

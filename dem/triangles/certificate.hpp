@@ -23,6 +23,8 @@ Certificate evaluate_certificate(const TrianglePacking& packing, const TriangleL
                                  const ImposedStress<2>& imposed, const EquilibriumScene& tolerance,
                                  double gravity = 0);
 Certificate evaluate_certificate(const State<TriangleGrains>& state);
+// sqrt(m a / F1) of the heaviest free grain, F1 = a P [s] (dem/run/loading.hpp).
+double inertial_time(const State<TriangleGrains>& state, double pressure);
 // Overlaps that carry a force.
 std::size_t loaded_contacts(const State<TriangleGrains>& state);
 

@@ -56,16 +56,16 @@ void check_step(const Scene& scene, std::vector<SceneConflict>& found) {
       return;
     }
   const double bound = stable * fastest;
-  if (!(scene.step.fraction < bound))
+  if (!(triangle_step_fraction(scene) < bound))
     found.push_back({"step.fraction",
-                     real_text(scene.step.fraction),
+                     real_text(triangle_step_fraction(scene)),
                      "unstable for the smallest grain (" + real_text(size) + " cm) under \"" +
                          std::string(kIntegratorNames[static_cast<std::size_t>(scene.step.integrator)]) + "\"; below " +
                          real_text(bound),
                      {"step.fraction", "step.integrator", "grains.shape", "grains.size_min", "grains.size_max",
                       "grains.density", "law.modulus", "law.stiffness", "law.bending", "law.damping"}});
   else
-    for (SceneConflict& c : wall_motion_conflicts(scene, scene.step.fraction / fastest, smallest))
+    for (SceneConflict& c : wall_motion_conflicts(scene, triangle_step_fraction(scene) / fastest, smallest))
       found.push_back(std::move(c));
 }
 

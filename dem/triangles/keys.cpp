@@ -174,6 +174,7 @@ std::vector<SceneKey> law_rows() {
       {.name = "step.fraction",
        .field = in<&S::step, &StepScene::fraction>,
        .range = from(kLeastStepFraction, kInfinity),
+       .absent = "0.6",
        .meaning = "c of the time step dt = c / omega, with omega the largest frequency of the smallest grain of each "
                   "shape (`isostat lab grain`). 0.6 is production, 0.2 the reference; a step beyond the stability "
                   "bound is refused."},

@@ -120,9 +120,9 @@ void check_step(const State<TriangleGrains>& state, const std::string& path) {
     size = std::min(size, std::sqrt(grain_area(grain)));
   }
   if (!(state.time_step < stable))
-    throw InputError(path, 0, "step.fraction", real_text(scene.step.fraction),
+    throw InputError(path, 0, "step.fraction", real_text(triangle_step_fraction(scene)),
                      "unstable for the smallest grain of this file; below " +
-                         real_text(scene.step.fraction * stable / state.time_step));
+                         real_text(triangle_step_fraction(scene) * stable / state.time_step));
   std::vector<Fault> faults;
   for (const SceneConflict& c : wall_motion_conflicts(scene, state.time_step, size))
     faults.push_back({"scene", 0, c.key, c.value, c.rule});

@@ -115,7 +115,7 @@ double triangle_time_step(const Scene& scene, const TrianglePacking& packing) {
   double fastest = 0;
   for (const GrainTemplate& grain : smallest_grains(packing, material_of(scene)))
     fastest = std::max(fastest, step_frequency(grain, scene.triangle_law.modulus));
-  return scene.step.fraction / fastest;
+  return triangle_step_fraction(scene) / fastest;
 }
 
 }  // namespace isostat

@@ -34,6 +34,9 @@ GrainTemplate template_of(const TrianglePacking& packing, std::size_t grain, con
 // The lightest free grain of each set of triangles and beams.
 std::vector<GrainTemplate> smallest_grains(const TrianglePacking& packing, const GrainMaterial& material);
 
+// c of the scene.
+inline double triangle_step_fraction(const Scene& scene) { return scene.step.fraction.value_or(0.6); }
+
 // dt [s] of a packing that has free grains.
 double triangle_time_step(const Scene& scene, const TrianglePacking& packing);
 

@@ -138,7 +138,7 @@ TEST(LoopsSection, ClassesOfCanonicalClusters) {
   for (std::size_t l = 0; l < 6; ++l) moments += std::abs(p.links[l].moment) / (0.01 * 2) / 6;
   EXPECT_NEAR(known["loops"]["mean_mobilisation"].get<double>(), moments, 1e-12);
 
-  input = {};
+  input = AnalysisInput();
   input.path = "test", input.links_given = true;
   input.state.packing = read_network<2>(ISOSTAT_DATA "/clusters/double_triangle.net").packing;
   const Json two = analyze(input, options, {"loops"})["loops"];  // no forces: only numbers of links

@@ -11,6 +11,7 @@
 #include "analysis/network/histogram.hpp"
 #include "analysis/network/percolation.hpp"
 #include "analysis/network/sections.hpp"
+#include "analysis/report.hpp"
 #include "dem/files/network_file.hpp"
 #include "dem/input_error.hpp"
 
@@ -260,7 +261,7 @@ TEST(Stress, RefusesWhatHasNoAreaOrNoForces) {
   p.links[0].normal_force = 0;
   for (const char* section : {"stress", "forces", "percolation"})
     EXPECT_EQ(refusal(foreign(p), section), "needs forces: this input has none");
-  EXPECT_EQ(refusal(foreign(p), "equilibrium"), "needs a state of the solver: this input has no interaction law");
+  EXPECT_EQ(refusal(foreign(p), "equilibrium"), "needs forces: this input has none");
 }
 
 // ---------------------------------------------------------------- equilibrium
@@ -281,7 +282,45 @@ TEST(EquilibriumSection, RecomputesTheCertificateAndSeesForeignForces) {
   EXPECT_NEAR(json["law_residual"], 0.5, 1e-9);
 }
 
+// A ring of four around the cell: the mean |N| is 2, whatever the units.
+TEST(EquilibriumSection, WithoutALawForcesBalanceOrAreSaidNotTo) {
+  Packing<2> p = disks({{{0, 0}}, {{2, 0}}, {{4, 0}}, {{6, 0}}}, 1);
+  p.cell = PeriodicCell<2>{{{8, 3}}};
+  p.links = {link(0, 1, 2), link(1, 2, 2), link(2, 3, 2), link(3, 0, 2, 0, {1, 0})};
+  for (Link<2>& l : p.links) l.gap = 0;
+  Json report = analyze(foreign(p), {}, {"equilibrium"});
+  EXPECT_EQ(report["equilibrium"].dump(), R"({"max_force":0.0,"max_moment":0.0,"force_scale":2.0})");
+  EXPECT_FALSE(report.contains("warnings"));
+
+  p.links[0].normal_force = 3, p.links[1].normal_force = 1;  // on grain 1 the force 2, of grains 0 and 2 it is 1
+  report = analyze(foreign(p), {}, {"equilibrium"});
+  EXPECT_DOUBLE_EQ(report["equilibrium"]["max_force"], 1);
+  ASSERT_EQ(report["warnings"].size(), 1u);
+  EXPECT_THAT(
+      report["warnings"][0].get<std::string>(),
+      HasSubstr("test: forces do not balance: 3 of 4 grains have a net force above 0.1 of the mean |N|, grain 1 "
+                "one of 1;"));
+
+  p.links[0].normal_force = p.links[1].normal_force = 2;
+  p.links[2].tangential_force = 0.1;  // 0.05 of the mean, on an arm of half the diameter
+  report = analyze(foreign(p), {}, {"equilibrium"});
+  EXPECT_DOUBLE_EQ(report["equilibrium"]["max_force"], 0.05);
+  EXPECT_DOUBLE_EQ(report["equilibrium"]["max_moment"], 0.025);
+  EXPECT_FALSE(report.contains("warnings"));
+}
+
 // ---------------------------------------------------------------- forces
+
+TEST(Forces, BinsAreAsWideAsAskedFor) {
+  Packing<2> p = disks({{{0, 0}}, {{1, 0}}, {{2, 0}}});
+  p.links = {link(0, 1, 0.3), link(1, 2, 0.9), link(0, 2, 0.6)};
+  AnalysisOptions options;
+  options.bin_width = 0.5;
+  const Json histograms = forces_section(foreign(p), options)["histograms"];  // F1 is the mean, 0.6
+  EXPECT_DOUBLE_EQ(histograms["N"]["edges"][1].get<double>() - histograms["N"]["edges"][0].get<double>(), 0.3);
+  EXPECT_DOUBLE_EQ(histograms["N_over_mean"]["edges"][1].get<double>(), 1);
+  EXPECT_DOUBLE_EQ(histograms["NT"]["edges"][0][1].get<double>() - histograms["NT"]["edges"][0][0].get<double>(), 0.3);
+}
 
 TEST(Forces, PopulationsOfTableVI) {
   Packing<2> p = disks({{{0, 0}}, {{1, 0}}, {{2, 0}}, {{3, 0}}});

@@ -180,6 +180,10 @@ TEST(Report, LeavesOutCostlySectionsUnlessNamed) {
   AnalysisOptions prestress;
   prestress.prestress = true;
   EXPECT_EQ(oracle::refusal(input, "modes", prestress), "--prestress needs the forces of the links");
+  AnalysisInput without_law = cohesive_state();
+  without_law.state.law = {};
+  EXPECT_EQ(oracle::refusal(without_law, "modes", prestress),
+            "--prestress needs the stiffness of the contacts in the units of their forces: --stiffness");
 }
 
 TEST(Report, SkipsWhatDoesNotApplyUnlessNamed) {
@@ -187,8 +191,8 @@ TEST(Report, SkipsWhatDoesNotApplyUnlessNamed) {
   input.state.law = {};
   const Json report = analyze(input, {}, {});
   EXPECT_TRUE(report.contains("counts"));
-  EXPECT_FALSE(report.contains("equilibrium"));
-  EXPECT_THROW(analyze(input, {}, {"equilibrium"}), InputError);
+  EXPECT_FALSE(report.contains("rdf"));
+  EXPECT_THROW(analyze(input, {}, {"rdf"}), InputError);
 }
 
 TEST(Report, UnknownSectionsAreListedTogether) {

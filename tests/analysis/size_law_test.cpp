@@ -19,14 +19,14 @@ double power_quantile(double u, double q, double a, double b) {
                              : std::pow(std::pow(a, e) + u * (std::pow(b, e) - std::pow(a, e)), 1 / e);
 }
 
-TEST(SizeLaw, ContinuousPowerLawsAreRecovered) {
+TEST(SizeLawFit, ContinuousPowerLawsAreRecovered) {
   for (const double q : {1.0, 1.7, 2.5, 4.0})
     for (const double end : {20.0, std::numeric_limits<double>::infinity()}) {
       if (std::isinf(end) && q <= 1) continue;  // no such law
       std::vector<double> sizes;
       for (int k = 0; k < 4000; ++k) sizes.push_back(power_quantile((k + 0.5) / 4000, q, 0.5, end));
       sizes.push_back(0.4);  // below the window
-      const SizeLaw law = continuous_size_law(sizes, 0.5, end);
+      const SizeLawFit law = continuous_size_law(sizes, 0.5, end);
       EXPECT_EQ(law.count, 4000);
       EXPECT_NEAR(law.exponent, q, 5e-3 * q) << q << ' ' << end;
       EXPECT_TRUE(law.identifiable) << law.message;
@@ -34,7 +34,7 @@ TEST(SizeLaw, ContinuousPowerLawsAreRecovered) {
     }
 }
 
-TEST(SizeLaw, AnExponentialIsNoPowerLaw) {
+TEST(SizeLawFit, AnExponentialIsNoPowerLaw) {
   std::mt19937_64 engine(1);
   std::vector<double> sizes;
   std::vector<std::int64_t> whole;
@@ -42,10 +42,10 @@ TEST(SizeLaw, AnExponentialIsNoPowerLaw) {
     sizes.push_back(1 - 3 * std::log(uniform(engine)));
     whole.push_back(4 + static_cast<std::int64_t>(-5 * std::log(uniform(engine))));
   }
-  const SizeLaw law = continuous_size_law(sizes, 1), discrete = discrete_size_law(whole, 4, 100000);
+  const SizeLawFit law = continuous_size_law(sizes, 1), discrete = discrete_size_law(whole, 4, 100000);
   EXPECT_NEAR(law.scale, 3, 4 * law.scale_error);
   EXPECT_NEAR(discrete.scale, 5, 4 * discrete.scale_error);
-  for (const SizeLaw& l : {law, discrete}) {
+  for (const SizeLawFit& l : {law, discrete}) {
     EXPECT_FALSE(l.identifiable);
     EXPECT_EQ(l.message, "no power law: an exponential is significantly more likely");
     EXPECT_LT(l.log_ratio, -2 * l.log_ratio_error);
@@ -53,7 +53,7 @@ TEST(SizeLaw, AnExponentialIsNoPowerLaw) {
 }
 
 // Of all exponents and scales on a grid none is more likely than what is found, and ln L there gives the ratio.
-TEST(SizeLaw, IsTheMaximumOfTheLikelihood) {
+TEST(SizeLawFit, IsTheMaximumOfTheLikelihood) {
   std::mt19937_64 engine(4);
   std::vector<std::int64_t> sizes;
   for (int k = 0; k < 60; ++k)
@@ -71,7 +71,7 @@ TEST(SizeLaw, IsTheMaximumOfTheLikelihood) {
   for (double s = 1; s < 200; s += 0.01)
     if (const double l = likelihood([&](double n) { return std::exp(-(n - 4) / s); }); l > best_exponential)
       best_exponential = l, scale = s;
-  const SizeLaw law = discrete_size_law(sizes, 4, to);
+  const SizeLawFit law = discrete_size_law(sizes, 4, to);
   EXPECT_NEAR(law.exponent, tau, 1e-3);
   EXPECT_NEAR(law.scale, scale, 1e-2);
   EXPECT_NEAR(law.log_ratio, best_power - best_exponential, 1e-3);
@@ -81,7 +81,7 @@ TEST(SizeLaw, IsTheMaximumOfTheLikelihood) {
   EXPECT_NEAR(law.exponent_error, h / std::sqrt(-bend), 2e-3);
 }
 
-TEST(SizeLaw, ErrorsAreTheScatterOverSamples) {
+TEST(SizeLawFit, ErrorsAreTheScatterOverSamples) {
   std::mt19937_64 engine(2);
   for (const bool discrete : {false, true}) {
     double sum = 0, squares = 0, error = 0;
@@ -100,7 +100,7 @@ TEST(SizeLaw, ErrorsAreTheScatterOverSamples) {
           if (taken) n.push_back(static_cast<std::int64_t>(std::min(whole, 1e6)));
         }
       }
-      const SizeLaw law = discrete ? discrete_size_law(n, 4, 1000) : continuous_size_law(x, 0.5);
+      const SizeLawFit law = discrete ? discrete_size_law(n, 4, 1000) : continuous_size_law(x, 0.5);
       sum += law.exponent, squares += law.exponent * law.exponent, error += law.exponent_error;
     }
     const double mean = sum / samples, scatter = std::sqrt(squares / samples - mean * mean);
@@ -109,10 +109,10 @@ TEST(SizeLaw, ErrorsAreTheScatterOverSamples) {
   }
 }
 
-TEST(SizeLaw, SaysWhenThereIsNothingToFit) {
+TEST(SizeLawFit, SaysWhenThereIsNothingToFit) {
   EXPECT_FALSE(continuous_size_law(std::vector<double>(19, 1.0), 0.5).identifiable);
   EXPECT_TRUE(std::isnan(continuous_size_law({}, 0.5).exponent));
-  const SizeLaw equal = discrete_size_law(std::vector<std::int64_t>(50, 4), 4, 100);
+  const SizeLawFit equal = discrete_size_law(std::vector<std::int64_t>(50, 4), 4, 100);
   EXPECT_FALSE(equal.identifiable);
   EXPECT_EQ(equal.message, "all sizes at one end: no exponent");
 }

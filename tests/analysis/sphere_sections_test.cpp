@@ -89,6 +89,18 @@ TEST(SphereSections, LatticeUnderPressure) {
   EXPECT_FALSE(analyze(input, {}, {"bases"})["bases"]["self_stress"]["list"].empty());
 }
 
+TEST(SphereSections, ForcesThatDoNotBalanceAreSaidNotTo) {
+  Packing<3> p = pressed_lattice(3);
+  EXPECT_FALSE(analyze(input_of(p), {}, {"equilibrium"}).contains("warnings"));
+  p.links[0].normal_force = 2.5;
+  const Json report = analyze(input_of(p), {}, {"equilibrium"});
+  const double mean = 2 + 0.5 / 81;
+  EXPECT_DOUBLE_EQ(report["equilibrium"]["force_scale"], mean);
+  EXPECT_NEAR(report["equilibrium"]["max_force"].get<double>(), 0.5 / mean, 1e-12);
+  ASSERT_EQ(report["warnings"].size(), 1u);
+  EXPECT_NE(report["warnings"][0].get<std::string>().find("2 of 27 grains"), std::string::npos);
+}
+
 TEST(SphereSections, Refusals) {
   Packing<3> p = pressed_lattice(2);
   for (const char* section : {"pores", "scattering", "dacf"})

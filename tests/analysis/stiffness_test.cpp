@@ -139,6 +139,50 @@ TEST(Moduli, TriangularLattice) {
   EXPECT_NEAR(central[2][2], q * 5, 1e-11);
 }
 
+// No grain of a Bravais lattice leaves the affine motion; the shares follow from the closed form above: for e11 = e22 = 1
+// every bond is shortened alike, for gamma12 three quarters of the bonds' energy K_N and a share K_T as C33 says.
+TEST(Moduli, EnergyOfTheTriangularLattice) {
+  const Packing<2> p = cluster("periodic_triangular4");
+  DiskLaw law = default_network_law();
+  law.normal_stiffness = 5, law.tangential_stiffness = 2;
+  const ElasticResponse<3> c = elastic_response(p, NetworkLaw::friction, law);
+  for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t b = 0; b < 3; ++b) EXPECT_NEAR(c.affine[a][b], c.tensor[a][b], 1e-11);
+  const std::vector<bool> contact(p.links.size(), true);
+  const EnergyShares bulk = energy_shares(c, contact, {{1, 1, 0}});
+  EXPECT_NEAR(bulk.normal, 1, 1e-12);
+  EXPECT_NEAR(bulk.participation, 1, 1e-12);
+  const EnergyShares shear = energy_shares(c, contact, {{0, 0, 1}});
+  EXPECT_NEAR(shear.normal, 5.0 / 7, 1e-12);
+  EXPECT_NEAR(shear.tangential, 2.0 / 7, 1e-12);
+  EXPECT_EQ(shear.rolling, 0);
+}
+
+// The energy of the links is the work of the stress, 1/2 e C e A; holding the grains only stiffens.
+TEST(Moduli, EnergyIsTheWorkOfTheStrain) {
+  for (std::uint64_t seed : {2u, 6u, 8u}) {
+    const Packing<2> p = network(seed, 4.0);
+    const ElasticResponse<3> c = elastic_response(p, NetworkLaw::rolling, default_network_law());
+    const std::array<double, 3> strain{0.3, -0.7, 0.4};
+    double work = 0, energy = 0;
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t b = 0; b < 3; ++b) work += 0.5 * strain[a] * c.tensor[a][b] * strain[b] * p.cell->measure();
+    for (std::size_t r = 0; r < c.k.size(); ++r) {
+      double v = 0;
+      for (std::size_t a = 0; a < 3; ++a) v += strain[a] * c.velocity[a][r];
+      energy += 0.5 * c.k[r] * v * v;
+    }
+    EXPECT_NEAR(energy / work, 1, 1e-9);
+    for (std::size_t a = 0; a < 3; ++a) EXPECT_GT(c.affine[a][a], c.tensor[a][a]);
+    std::vector<bool> contact;
+    for (const Link<2>& link : p.links) contact.push_back(link.kind != LinkKind::distant);
+    const EnergyShares e = energy_shares(c, contact, {strain});
+    EXPECT_NEAR(e.normal + e.tangential + e.rolling + e.distant, 1, 1e-12);
+    EXPECT_GT(e.rolling, 0);
+    EXPECT_LT(e.participation, 1);
+  }
+}
+
 // Without forces the geometric term is absent: UMFPACK on the tangent against CHOLMOD on Gt k G.
 TEST(Moduli, TangentWithoutForcesIsTheSymmetricOne) {
   for (std::uint64_t seed : {2u, 6u, 8u}) {
@@ -167,6 +211,43 @@ TEST(Vibration, PairOfDisks) {
   const double sliding = std::sqrt(2 * (inverse_mass + li * li / p.bodies.inertia[0] + lj * lj / p.bodies.inertia[1]));
   EXPECT_NEAR(modes.omega[0], std::min(normal, sliding), 1e-12);
   EXPECT_NEAR(modes.omega[1], std::max(normal, sliding), 1e-12);
+  // Along the normal m_i v_i = -m_j v_j: shares of energy are as the other's mass.
+  const std::size_t along = normal < sliding ? 0 : 1;
+  const double share = p.bodies.mass[1] / (p.bodies.mass[0] + p.bodies.mass[1]);
+  EXPECT_NEAR(modes.participation[along], 1 / (2 * (share * share + (1 - share) * (1 - share))), 1e-12);
+}
+
+// All modes of a network that Lanczos would take, against a dense solver of the generalised problem.
+TEST(Vibration, AllModesAreThoseOfTheDenseMatrix) {
+  const Packing<2> p = network(2, 4.4, 12);
+  const DiskLaw law = default_network_law();
+  const VibrationModes modes = vibration_modes(p, NetworkLaw::friction, law, kAllModes, true);
+  const RigidityMatrix g = rigidity_matrix(p, NetworkLaw::friction, false);
+  ASSERT_GT(g.columns(), 3 * kDenseSize / 2);
+  const auto k = row_stiffness(p, g, law);
+  const Eigen::MatrixXd dense_g = dense(g);
+  const Eigen::MatrixXd stiffness =
+      dense_g.transpose() * Eigen::Map<const Eigen::VectorXd>(k.data(), std::ssize(k)).asDiagonal() * dense_g;
+  const std::vector<double> m = dof_masses(p, NetworkLaw::friction);
+  const Eigen::VectorXd mass = Eigen::Map<const Eigen::VectorXd>(m.data(), std::ssize(m));
+  const Eigen::VectorXd root = mass.cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(root.asDiagonal() * stiffness * root.asDiagonal());
+  ASSERT_EQ(std::ssize(modes.omega) + modes.zero_modes, g.columns());
+  const double largest = solver.eigenvalues().maxCoeff();
+  for (Eigen::Index i = 0; i < std::ssize(modes.omega); ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    EXPECT_NEAR(modes.omega[n] * modes.omega[n], solver.eigenvalues()[modes.zero_modes + i], 1e-12 * largest);
+    const Eigen::Map<const Eigen::VectorXd> u(modes.displacement[n].data(), g.columns());
+    EXPECT_NEAR(u.dot(mass.cwiseProduct(u)), 1, 1e-12);
+    EXPECT_LT((stiffness * u - modes.omega[n] * modes.omega[n] * mass.cwiseProduct(u)).cwiseAbs().maxCoeff(),
+              1e-11 * largest);
+    double squares = 0;
+    for (Eigen::Index b = 0; b < g.columns(); b += 3) {
+      const double share = u.segment(b, 3).dot(mass.segment(b, 3).cwiseProduct(u.segment(b, 3)));
+      squares += share * share;
+    }
+    EXPECT_NEAR(modes.participation[n], 3 / (static_cast<double>(g.columns()) * squares), 1e-12);
+  }
 }
 
 TEST(SoftModes, SmallestSingularValueOfAnOverlappingTriangle) {

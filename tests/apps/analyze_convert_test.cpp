@@ -112,6 +112,19 @@ TEST_F(AnalyzeConvert, BadUsageNamesOptionAndValue) {
            {kClusters + "periodic_free_cluster.net --only dacf --r-window 1,900", "--r-window = 900"},
            {net + "--cell free", "--cell = free: needs a periodic cell"},
            {in_folder("missing.h5"), "missing.h5"},
+           {net + "--box 1", "--box = 1: must be two (3D: three) positive edges, as in 10,20"},
+           {net + "--box 1,-2", "--box = 1,-2: must be two"},
+           {net + "--box 9,9,9", "--box"},
+           {kClusters + "periodic_free_cluster.net --box 9,9", "the file has its own cell; leave --box out"},
+           {net + "--modes 5", "--modes: belongs to the section modes: name it in --only"},
+           {net + "--only modes --modes 0", "--modes = 0: must be a number from 1 to 1000, or all"},
+           {net + "--only modes --modes some", "--modes = some: must be a number from 1 to 1000, or all"},
+           {net + "--only modes --prestress --modes all", "--modes = all: is of the symmetric modes"},
+           {net + "--only forces --bins 0", "--bins = 0: must be positive"},
+           {net + "--bins 1", "--bins: belongs to the section forces"},
+           {net + "--stiffness 0", "--stiffness = 0: is K_N or K_N,K_T or K_N,K_T,K_R, positive numbers"},
+           {net + "--table " + in_folder("t.csv") + " --json -", "--table"},
+           {net + "--table " + in_folder("no/such/t.csv"), "t.csv: cannot be written"},
            {net + "--json " + in_folder("no/such/place.json"), "place.json: cannot be written"}}) {
     const Outcome o = run("analyze " + arguments);
     EXPECT_EQ(o.code, 2) << arguments;
@@ -137,7 +150,9 @@ TEST_F(AnalyzeConvert, ForeignPackingBecomesAStateAndBack) {
   EXPECT_DOUBLE_EQ(json["percolation"]["F_perc"], 3);
   EXPECT_EQ(json["percolation"]["direction"], "y");
   EXPECT_DOUBLE_EQ(json["counts"]["z"], 4);
-  EXPECT_FALSE(json.contains("equilibrium"));  // no law
+  EXPECT_EQ(json["equilibrium"].size(), 3u);  // no law
+  EXPECT_DOUBLE_EQ(json["equilibrium"]["force_scale"], 2.5);
+  EXPECT_FALSE(json.contains("warnings"));
   ASSERT_EQ(run("convert" + file("p.h5") + "-o" + file("q.csv")).code, 0);
   ASSERT_EQ(run("convert" + file("q.csv") + "--box 3,3 -o" + file("q.dump")).code, 0);
   ASSERT_EQ(run("convert" + file("q.dump") + "-o" + file("r.csv")).code, 0);

@@ -16,13 +16,13 @@ using BadInput = Program;
 
 TEST_F(BadInput, AllFaultsOfASceneAtOnce) {
   write("scene.toml",
-        "[grains]\ncount = 0\nsolid_fraction = 0.9\n[law]\nfrictoin = 0.5\nnormal_stiffness = nan\n[[stage]]\npressure "
+        "[grains]\ncount = 0\nsolid_fraction = 1.9\n[law]\nfrictoin = 0.5\nnormal_stiffness = nan\n[[stage]]\npressure "
         "= -1\n");
   const Outcome o = run("pack " + in_folder("scene.toml") + " -o " + in_folder("state.h5") + " --set law.damping=2");
   EXPECT_EQ(o.code, 2);
   EXPECT_EQ(o.out, "");
   EXPECT_THAT(o.err, HasSubstr("scene.toml:2: grains.count = 0: integer in [1, 1e+09]"));
-  EXPECT_THAT(o.err, HasSubstr("scene.toml:3: grains.solid_fraction = 0.9"));
+  EXPECT_THAT(o.err, HasSubstr("scene.toml:3: grains.solid_fraction = 1.9"));
   EXPECT_THAT(o.err, HasSubstr("scene.toml:5: law.frictoin = 0.5: unknown key; did you mean law.friction?"));
   EXPECT_THAT(o.err, HasSubstr("scene.toml:6: law.normal_stiffness = nan"));
   EXPECT_THAT(o.err, HasSubstr("scene.toml:8: stage.0.pressure = -1"));

@@ -60,6 +60,29 @@ TEST_F(Pack, RunsTheStagesAndWritesOneState) {
   EXPECT_TRUE(t["stages"].is_object() && !t["stages"].empty());
 }
 
+// A row of ten disks that closes on itself, pulled along it.
+TEST_F(Pack, SaysWhichStageWasNotQuasiStatic) {
+  std::string row = "cell 9.99 4\n";
+  for (int k = 0; k < 10; ++k) row += "grain " + std::to_string(k) + " " + std::to_string(0.999 * k) + " 2 .5\n";
+  write("row.net", row);
+  const auto told = [&](const std::string& stage, const std::string& more = "") {
+    write("scene.toml", "[grains]\nfile = \"" + in_folder("row.net") +
+                            "\"\n[law]\nnormal_stiffness = 1e3\n[[stage]]\nuntil = \"time\"\ntime = 2\n" + stage);
+    const Outcome o = run(pack("row.h5", "--force " + more));
+    EXPECT_EQ(o.code, 0) << o.err;
+    return o.err;
+  };
+  EXPECT_THAT(told("strain_rate_1 = -2e-3\n"), HasSubstr("not quasi-static, stage 0: inertial number up to 0.002"));
+  EXPECT_THAT(told("strain_rate_1 = -5e-4\n"), Not(HasSubstr("quasi-static")));
+  EXPECT_THAT(told("strain_rate_1 = -5e-4\nstress_2 = 0.1\nmax_strain_rate = 5e-4\n"), Not(HasSubstr("quasi-static")))
+      << "on its way to the stress";
+  const std::string next =
+      "strain_rate_1 = 9e-4\n[[stage]]\nuntil = \"time\"\ntime = 6\nstress_1 = 0.45\nramp_time = 0.1\n";
+  EXPECT_THAT(told(next, "--set cell.inertia=1000"), HasSubstr("not quasi-static, stage 1: stress off by up to"))
+      << "a heavy cell moves on";
+  EXPECT_THAT(told(next, "--set cell.inertia=0.03 --set cell.damping=30"), Not(HasSubstr("quasi-static")));
+}
+
 TEST_F(Pack, SeedSetAndThreads) {
   ASSERT_EQ(run(pack("a.h5")).code, 0);
   ASSERT_EQ(run(pack("b.h5", "--threads 3")).code, 0);
@@ -116,6 +139,19 @@ TEST_F(Pack, SeriesAndSnapshotsOnlyWatch) {
   EXPECT_NEAR(read_state<Disks>(in_folder("seen.snapshot0001.h5")).time, 1, 0.01);
   EXPECT_TRUE(exists("seen.snapshot0003.h5"));
   EXPECT_FALSE(exists("seen.snapshot0004.h5"));
+}
+
+TEST_F(Pack, SnapshotsAtMultiplesOfAnInterval) {
+  ASSERT_EQ(run(pack("plain.h5")).code, 0);
+  ASSERT_EQ(run(pack("seen.h5", "--set output.snapshot_interval=1.5 --set output.snapshot_times=[1.0,3.0]")).code, 0);
+  EXPECT_EQ(hash("seen.h5"), hash("plain.h5"));
+  const std::vector<double> times{1, 1.5, 3, 4.5};  // one file where both ask for it
+  for (std::size_t k = 0; k < times.size(); ++k)
+    EXPECT_NEAR(read_state<Disks>(in_folder("seen.snapshot000" + std::to_string(k + 1) + ".h5")).time, times[k], 0.01);
+  EXPECT_FALSE(exists("seen.snapshot0005.h5"));
+  const Outcome o = run(pack("bad.h5", "--set output.snapshot_interval=0"));
+  EXPECT_EQ(o.code, 2);
+  EXPECT_THAT(o.err, HasSubstr("output.snapshot_interval = 0"));
 }
 
 TEST_F(Pack, InterruptedRunsResumeToTheSameBits) {

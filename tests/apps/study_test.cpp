@@ -395,5 +395,87 @@ law.friction = [0.1, 0.3, 0.5]
     EXPECT_EQ(run(plot + " " + bad).code, 2) << bad;
 }
 
+// Stages as rows with their pressure; a derived column is the mean of the expression and not the expression of the
+// means.
+TEST_F(Study, DerivedColumnsAndSlopesOverStages) {
+  write("path.toml", quick_scene(20) + R"toml([[stage]]
+pressures = [0.2, 0.4]
+max_strain_rate = 0.1
+until = "time"
+time = 1
+)toml");
+  write("study.toml", R"toml(scene = "path.toml"
+seeds = 3
+stages = "all"
+[derived]
+zeta = "counts.z"      # before those that need it, whatever the order of the alphabet
+e = "1 / counts.solid_fraction - 1"
+a = "2 * zeta ^ 2 - zeta"
+[[slope]]
+name = "lambda"
+x = "log(stage.pressure)"
+y = "e"
+stages = [1, 2, 3]
+)toml");
+  const Outcome o = run(study("out"));
+  ASSERT_EQ(o.code, 0) << o.err;
+  const DataTable t = table("out/study.csv");
+  ASSERT_EQ(t.rows(), 4u);
+  EXPECT_THAT(t.find("stage.pressure")->text, ElementsAre("", "0.1", "0.2", "0.4"));
+  const auto counts = [&](int seed, const std::string& stage) {
+    return json::parse(text("out/path.000" + std::to_string(seed) + stage + ".analysis.json"))["report"]["counts"];
+  };
+  double mean_slope = 0;
+  for (int seed = 1; seed <= 3; ++seed) {
+    double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+    for (const auto& [stage, pressure] :
+         std::vector<std::pair<std::string, double>>{{".stage1", 0.1}, {".stage2", 0.2}, {".stage3", 0.4}}) {
+      const double px = std::log(pressure), py = 1 / counts(seed, stage)["solid_fraction"].get<double>() - 1;
+      ++n, x += px, y += py, xx += px * px, xy += px * py;
+    }
+    mean_slope += (n * xy - x * y) / (n * xx - x * x) / 3;
+  }
+  const DataTable slopes = table("out/slopes.csv");
+  ASSERT_EQ(slopes.rows(), 1u);
+  EXPECT_EQ(slopes.find("n")->value[0], 3);
+  EXPECT_NEAR(slopes.find("mean")->value[0], mean_slope, 1e-10);
+  for (std::size_t r = 0; r < 4; ++r) {
+    std::vector<double> a;
+    double mean = 0, squares = 0;
+    for (int seed = 1; seed <= 3; ++seed) {
+      const double z = counts(seed, ".stage" + std::to_string(r))["z"];
+      a.push_back(2 * z * z - z), mean += a.back() / 3;
+    }
+    for (const double v : a) squares += (v - mean) * (v - mean);
+    EXPECT_NEAR(at(t, "a", r), mean, 1e-12 * std::abs(mean));
+    EXPECT_NEAR(at(t, "a_se", r), std::sqrt(squares / 2 / 3), 1e-9 * std::abs(mean));
+  }
+}
+
+TEST_F(Study, FaultsOfDerivedColumns) {
+  write("study.toml", R"toml(scene = "scene.toml"
+seeds = 2
+[derived]
+a = "1 + "
+b = "moduli.bulk"
+c = "ln(counts.z)"
+d = "counts.z / e"
+e = 3
+"f g" = "1"
+[[slope]]
+name = "s"
+x = "counts.z"
+stages = [0, 7]
+colour = 1
+)toml");
+  const Outcome o = run(study("out"));
+  EXPECT_EQ(o.code, 2);
+  for (const char* fault :
+       {"study.toml:4: derived.a", "something is missing", "study.toml:5: derived.b", "SECTION.KEY", "no function ln",
+        "study.toml:7: derived.d", "study.toml:8: derived.e", "derived.f g", "slope.y", "slope.stages", "slope.colour"})
+    EXPECT_THAT(o.err, HasSubstr(fault));
+  EXPECT_FALSE(exists("out/study.csv"));
+}
+
 }  // namespace
 }  // namespace isostat

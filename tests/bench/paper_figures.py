@@ -2,7 +2,7 @@
 """Numbers of the figures of Gilabert 2007 that the text describes: local coordinations (Figs. 3, 6), slopes and symmetry of
 the distributions of normal forces (Fig. 9), series A against B (Fig. 10), angles of forces (Fig. 15).
 
-    isostat study data/studies/NAME.toml -o out/NAME        for NAME in readings-method1 readings-aggregates readings-stiffening
+    isostat study data/studies/NAME.toml -o out/NAME        for NAME in method1 aggregation
     tests/bench/paper_figures.py out docs/measured/results/figures.csv
 
 A row such as A+A-5600 pools both by their samples. Errors are standard errors over samples.
@@ -19,11 +19,11 @@ EXPONENTIAL = (0.1, 0.6)  # [F0] of |N|, where ln p falls in a line
 EXPONENTIAL_OF_MEAN = (1.0, 4.0)  # of N over its mean, without cohesion
 PEAK = 10  # [degrees] half width of a peak of Fig. 15
 
-METHOD1 = [(f"{t} mu .{m} {'RR' if rr == 'true' else 'no RR'}", f"{t}-inertia1.0-friction0.{m}-rolling{rr}", "")
+METHOD1 = [(f"{t} mu .{m} {'RR' if rr == 'true' else 'no RR'}", f"{t}-solid_fraction0.36-friction=0.{m}-rolling={rr}", "")
            for t in ("II", "III") for m in ("15", "5") for rr in ("false", "true")]
-SERIES_A = [(f"A {'RR' if rr else 'no RR'} {p}", f"A{rr}-velocity_ofcomponent", stage)
+SERIES_A = [(f"A {'RR' if rr else 'no RR'} {p}", f"A{rr}+A{rr}-5600", stage)
             for rr in ("", "-RR") for p, stage in (("P* 0", 1), ("P* .01", 2))]
-SERIES_B = [(f"B {'RR' if rr else 'no RR'} {p}", "+".join(f"B{rr}-{k}" for k in range(1, 7)), stage)
+SERIES_B = [(f"B {'RR' if rr else 'no RR'} {p}", f"B{rr}+B{rr}-5600", stage)
             for rr in ("", "-RR") for p, stage in (("P* 0", 2), ("P* .01", 3))]
 
 
@@ -84,8 +84,7 @@ def quantities(report, cohesive):
 def main():
     out = pathlib.Path(sys.argv[1])
     lines = [["case", "quantity", "value", "error", "samples"]]
-    for study, cases in (("readings-method1", METHOD1), ("readings-aggregates", SERIES_A),
-                         ("readings-stiffening", SERIES_B)):
+    for study, cases in (("method1", METHOD1), ("aggregation", SERIES_A + SERIES_B)):
         if not (out / study / "runs.csv").exists():
             continue
         for case, rows, stage in cases:

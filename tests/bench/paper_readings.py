@@ -2,13 +2,12 @@
 """Which readings of the paper's open process numbers fit best: chi^2 of Tables II to V of Gilabert 2007 against the mass of
 the cell, the cap on the speed of its edges, the reading of V0 and, in series B, how the contacts are stiffened.
 
-    isostat study data/studies/NAME.toml -o out/NAME
-        for NAME in readings-method1 readings-aggregates readings-loads readings-stiffening (in this order: the last two
-        take states of the second)
+    isostat study data/studies/NAME.toml -o out/NAME        for NAME in method1 readings-method1 aggregation readings
     tests/bench/paper_readings.py out docs/measured/results
 
-writes readings.csv (every mean with its error and gap, by reading) and readings_chi2.csv, and prints the latter. Table II and
-III: rows Phi_I = .36; IV and V: series A and B. A gap is that of paper_tables.py.
+writes readings.csv (every mean with its error and gap, by reading), readings_chi2.csv (a table and reading) and
+readings_joint.csv (all tables together), and prints the last two. Table II and III: rows Phi_I = .36; IV and V: series A and
+B, 1400 disks. A gap is that of paper_tables.py.
 """
 import csv
 import pathlib
@@ -32,38 +31,62 @@ def names(folder):
         return list(dict.fromkeys(r["row"] for r in csv.DictReader(f)))
 
 
-def method1(folder):
+def method1(*folders):
     """(table, case, mass, cap, velocity reading, stiffening): [(folder, row, stage)]"""
     found = {}
-    for row in names(folder):
-        m = re.fullmatch(r"(III?)-inertia([\d.]+)-friction([\d.]+)-rolling(true|false)", row)
-        case = f"mu {m[3][1:]}" + (" RR" if m[4] == "true" else "")
-        found[(m[1], case, float(m[2]), NO_CAP, "-", "-")] = [(folder, row, "")]
+    for folder, row in ((f, row) for f in folders for row in names(f)):
+        m = re.fullmatch(r"(III?)-(?:inertia=([\d.]+)|solid_fraction0.36)-friction=([\d.]+)-rolling=(true|false)", row)
+        if m:
+            case = f"mu {m[3][1:]}" + (" RR" if m[4] == "true" else "")
+            found[(m[1], case, float(m[2] or 1), NO_CAP, "-", "-")] = [(folder, row, "")]
     return found
 
 
-def method2(aggregates, loads, stiffened):
+READINGS = {  # suffix of a row of readings.toml: mass, cap, V0, stiffening of B; aggregation.toml has the first
+    "": (1.0, "0.05", "component", FAST),
+    "-mass=2": (2.0, "0.05", "component", FAST),
+    "-no-cap": (1.0, NO_CAP, "component", FAST),
+    "-mass=2-no-cap": (2.0, NO_CAP, "component", FAST),
+    "-vector": (1.0, "0.05", "vector", FAST),
+    "-slow": (1.0, "0.05", "component", SLOW),
+    "-vector-slow": (1.0, "0.05", "vector", SLOW),
+}
+
+
+def method2(tables, others):
     found = {}
-    for row in names(aggregates):
-        m = re.fullmatch(r"([AB])(-RR)?-velocity_of(component|vector)", row)
+    for folder, row in [(tables, r) for r in names(tables)] + [(others, r) for r in names(others)]:
+        m = re.fullmatch(r"([AB])(-RR)?(-.*)?", row)
+        if not m or (m[3] or "") not in READINGS:
+            continue
+        mass, cap, velocity, stiffened = READINGS[m[3] or ""]
         case, stage = m[1] + (" RR" if m[2] else ""), 1 if m[1] == "A" else 2
-        slow = SLOW if m[1] == "B" else "-"
-        found[("IV", case, 1.0, "0.05", m[3], slow)] = [(aggregates, row, stage)]
-        found[("V", case, 1.0, "0.05", m[3], slow)] = [(aggregates, row, stage + 1)]
-    for row in names(loads) if (loads / "runs.csv").exists() else []:
-        m = re.fullmatch(r"([AB])(-RR)?-(component|vector)-\d+-inertia([\d.]+)-max_edge_speed([\d.]+)", row)
-        cap = NO_CAP if float(m[5]) >= 100 else m[5]
-        if (float(m[4]), cap) == (1.0, "0.05"):
-            continue  # the run straight through stands for it
-        case = m[1] + (" RR" if m[2] else "")
-        slow = SLOW if m[1] == "B" else "-"
-        found.setdefault(("V", case, float(m[4]), cap, m[3], slow), []).append((loads, row, ""))
-    for row in names(stiffened):
-        m = re.fullmatch(r"B(-RR)?-\d+", row)
-        case = "B" + (" RR" if m[1] else "")
-        for table, stage in (("IV", 2), ("V", 3)):
-            found.setdefault((table, case, 1.0, "0.05", "component", FAST), []).append((stiffened, row, stage))
+        stiffened = stiffened if m[1] == "B" else "-"
+        if cap == "0.05" and mass == 1:  # the cell does not move before
+            found[("IV", case, mass, cap, velocity, stiffened)] = [(folder, row, stage)]
+        found[("V", case, mass, cap, velocity, stiffened)] = [(folder, row, stage + 1)]
     return found
+
+
+def joint(sums):
+    """Chi^2 of all tables against mass, cap and reading of V0. The mass acts where the cell moves (II, III, V), the cap in
+    V, the reading of V0 in IV, whose B of the vector is the one stiffened slowly, for it fits better."""
+    lines = [["mass", "edge_speed", "V0_of", "numbers", "chi2", "II", "III", "IV", "V_A", "V_B"]]
+    for mass, cap in sorted({k[1:3] for k in sums if k[0] == "V, B"}):
+        for velocity in ("component", "vector"):
+            b = {"component": FAST, "vector": SLOW}[velocity]
+            known = ("V, A", mass, cap, velocity, "-") in sums and ("V, B", mass, cap, velocity, b) in sums
+            of = (velocity, b) if known else ("component", FAST)  # under load the reading hardly shows
+            parts = {"II": [("II", mass, NO_CAP, "-", "-")], "III": [("III", mass, NO_CAP, "-", "-")],
+                     "IV": [("IV, A", 1.0, "0.05", velocity, "-"), ("IV, B", 1.0, "0.05", velocity, b)],
+                     "V_A": [("V, A", mass, cap, of[0], "-")], "V_B": [("V, B", mass, cap, *of)]}
+            found = {name: [sums[k] for k in keys if k in sums] for name, keys in parts.items()}
+            if all(len(found[name]) == len(keys) for name, keys in parts.items()):
+                chi2 = {name: sum(part[0] for part in group) for name, group in found.items()}
+                numbers = sum(part[2] for group in found.values() for part in group)
+                lines.append([str(mass), cap, velocity, str(numbers), f"{sum(chi2.values()):.0f}",
+                              *(f"{chi2[name]:.0f}" for name in parts)])
+    return lines
 
 
 def main():
@@ -72,9 +95,8 @@ def main():
     table = [["table", "case", "quantity", "mass", "edge_speed", "V0_of", "stiffened", "ours", "error", "samples", "paper",
               "paper_error", "gap"]]
     sums = {}
-    for key, sources in {**method1(out / "readings-method1"),
-                         **method2(out / "readings-aggregates", out / "readings-loads",
-                                   out / "readings-stiffening")}.items():
+    for key, sources in {**method1(out / "method1", out / "readings-method1"),
+                         **method2(out / "aggregation", out / "readings")}.items():
         for quantity in ("Phi", "z", "mean_radius_weighted"):
             name, case, *reading = key
             r = numbers.get((name, case, quantity)) or numbers.get(("text", case + " P* .01", quantity))
@@ -100,6 +122,9 @@ def main():
         lines.append([name, str(mass), *rest, str(n), f"{total:.0f}", f"{phi:.0f}", f"{total - phi:.0f}"])
     write(target / "readings_chi2.csv", lines)
     markdown(lines)
+    together = joint(sums)
+    write(target / "readings_joint.csv", together)
+    markdown(together)
 
 
 if __name__ == "__main__":

@@ -17,6 +17,7 @@
 #include "dem/triangles/grain_store.hpp"
 #include "dem/triangles/lab/throughput.hpp"
 #include "dem/triangles/sample.hpp"
+#include "dem/triangles/time_step.hpp"
 #include "geometry/base/index.hpp"
 
 using namespace isostat;
@@ -213,7 +214,7 @@ void variants(const BedState& bed) {
   all.push_back(changed("no dampers", [](BedState& s) { s.law.damping = 0; }));
   all.push_back(changed("Gear", [](BedState& s) {
     s.scene.step.integrator = Integrator::gear, s.memory = {};
-    s.time_step *= 0.2 / s.scene.step.fraction;
+    s.time_step *= 0.2 / triangle_step_fraction(s.scene);
   }));
   all.push_back(changed("paper law", [](BedState& s) { s.law.contact = ContactLaw::paper; }));
   all.push_back({"walls of grains", with_walls_of_grains(bed)});

@@ -20,7 +20,7 @@ namespace {
 
 // Digest of everything in the state, memory included: of the state file's bytes.
 std::size_t bytes(State<Disks> s) {
-  s.scene = {}, s.progress.stage = 0;  // keys that do not apply are not kept
+  s.scene = Scene(), s.progress.stage = 0;  // keys that do not apply are not kept
   return std::hash<std::string>{}(encode_state(s));
 }
 

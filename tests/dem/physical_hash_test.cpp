@@ -51,7 +51,7 @@ RC_GTEST_PROP(PhysicalHash, DoesNotSeeTheOrderOfStorage, (std::uint64_t seed)) {
   State<Disks> other = shuffled(state, seed + 1);
   RC_ASSERT(physical_hash(other) == physical_hash(state));
   other.memory = {};
-  other.scene = {};
+  other.scene = Scene();
   other.progress = {};
   other.seed += 1, other.step += 1;
   RC_ASSERT(physical_hash(other) == physical_hash(state));

@@ -149,15 +149,26 @@ TEST(Stages, StiffeningRestartsBitForBit) {
   }
 }
 
-TEST(Stages, TensionTearsTheAggregateApart) {
-  StageScene stage;
-  stage.strain_rate_1 = -0.02, stage.stress_2 = 0.0, stage.until = Until::failure, stage.max_time = 100;
-  RunOutcome outcome;
-  const State<Disks> torn = go_on(stage, &outcome);
-  ASSERT_TRUE(outcome.all_met()) << outcome.stages.at(0).reason;
-  EXPECT_GT(torn.packing.cell->length[0], aggregate().packing.cell->length[0]);
-  EXPECT_GT(torn.progress.peak_stress, 1e-3);
-  EXPECT_NEAR(torn.cell_motion.strain_rate[0], -0.02, 1e-15);
+TEST(Stages, TensionTearsAPackingApart) {
+  StageScene pressed, pulled;
+  pressed.pressure = 0.5;
+  pulled.strain_rate_1 = -5e-3, pulled.stress_2 = 0.0, pulled.ramp_time = 2, pulled.until = Until::failure;
+  pulled.max_time = 300;
+  Scene scene = gas(60);
+  scene.finish.method = Finish::drag;
+  scene.stages = {pressed, pulled};
+  State<Disks> s = initial_disks(scene, 3);
+  Vec2 before;
+  RunHooks<Disks> hooks;
+  hooks.stage_end = [&](const State<Disks>& at) {
+    if (at.progress.stage == 1) before = at.packing.cell->length;
+  };
+  const RunOutcome outcome = run_stages(s, {}, hooks);
+  ASSERT_TRUE(outcome.all_met()) << outcome.stages.back().reason;
+  EXPECT_GT(s.packing.cell->length[0], before[0]);
+  EXPECT_GT(s.progress.peak_stress, 0.02);
+  EXPECT_LT(s.progress.carried_stress, 0.5 * s.progress.peak_stress);
+  EXPECT_NEAR(s.cell_motion.strain_rate[0], -5e-3, 1e-15);
 }
 
 TEST(Stages, StrainEndsADrivenStage) {

@@ -131,8 +131,8 @@ TEST(StateFile, OtherFilesAreBadInput) {
   EXPECT_THAT(message_of([&] { read_state<Disks>(folder / "text.h5"); }), HasSubstr("not a state file"));
   EXPECT_FALSE(is_state_file(folder / "text.h5") || is_state_file(folder / "none.h5") || is_state_file("/tmp"));
   std::string later = encode_state(random_state(1, 2, 1));
-  later.replace(later.find("version 6"), 9, "version 7");
-  EXPECT_THAT(message_of([&] { decode_state(later, "later.h5"); }), HasSubstr("format_version = 7"));
+  later.replace(later.find("version 7"), 9, "version 8");
+  EXPECT_THAT(message_of([&] { decode_state(later, "later.h5"); }), HasSubstr("format_version = 8"));
 }
 
 // The image after changes by the HDF5 library itself, sealed anew: what only the inner checks can find.

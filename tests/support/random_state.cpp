@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 #include <tuple>
 #include <vector>
@@ -91,14 +92,17 @@ State<Disks> random_state(std::uint64_t seed, int grains, int links) {
   s.progress.stage = d.integer(0, static_cast<int>(s.scene.stages.size()));
   s.progress.start_time = d.real(), s.progress.started = d.coin();
   s.progress.drag_on = d.coin(), s.progress.quiet_since = d.real();
+  s.progress.ramp_stress = d.vec(), s.progress.ramp_rate = d.vec();
+  s.progress.carried_stress = d.real(), s.progress.carried_at = d.real(), s.progress.peak_stress = d.real();
   s.progress.drifting = d.coin();
   s.progress.solves = d.integer(0, 3);
   if (d.coin()) s.progress.add_unmet("stage 0: stopped");
   if (d.coin()) s.surroundings = {d.vec(), d.real(), d.coin(), d.integer(0, 9), d.positive(), d.real()};
   s.ledger = {d.real(), d.real(), d.real(), d.real(), d.real(), d.real(), d.real(), d.real()};
   Certificate& c = s.certificate;
-  for (double* x : {&c.max_force, &c.max_moment, &c.pressure_error, &c.kinetic_energy_per_grain, &c.force_scale,
-                    &c.tolerance_force, &c.tolerance_pressure, &c.tolerance_kinetic, &c.smallest_margin})
+  for (double* x :
+       {&c.max_force, &c.max_moment, &c.pressure_error, &c.kinetic_energy_per_grain, &c.force_scale, &c.tolerance_force,
+        &c.tolerance_pressure, &c.tolerance_kinetic, &c.smallest_margin, &c.inertial_number, &c.stress_error})
     *x = d.real();
   c.sliding = d.integer(0, 99), c.rolling_yielded = d.integer(0, 99), c.moving = d.integer(0, 99);
   c.pressure_controlled = d.coin(), c.equilibrated = d.coin();
@@ -178,6 +182,12 @@ void expect_equal(const State<Disks>& a, const State<Disks>& b) {
   EXPECT_SAME(progress.start_stiffness);
   EXPECT_SAME(progress.start_stress);
   EXPECT_SAME(progress.start_shear_stress);
+  EXPECT_SAME(progress.ramp_stress);
+  EXPECT_SAME(progress.ramp_rate);
+  EXPECT_SAME(progress.ramp_shear_stress);
+  EXPECT_SAME(progress.ramp_shear_rate);
+  EXPECT_SAME(progress.carried_stress);
+  EXPECT_SAME(progress.carried_at);
   EXPECT_SAME(progress.peak_stress);
   EXPECT_SAME(progress.drifting);
   EXPECT_SAME(progress.solves);
@@ -203,6 +213,9 @@ void expect_equal(const State<Disks>& a, const State<Disks>& b) {
   EXPECT_SAME(certificate.rolling_yielded);
   EXPECT_SAME(certificate.smallest_margin);
   EXPECT_SAME(certificate.moving);
+  for (const auto number : {&Certificate::inertial_number, &Certificate::stress_error})
+    EXPECT_TRUE(a.certificate.*number == b.certificate.*number ||
+                (std::isnan(a.certificate.*number) && std::isnan(b.certificate.*number)));
   EXPECT_SAME(certificate.pressure_controlled);
   EXPECT_SAME(certificate.equilibrated);
   EXPECT_EQ(a.certificate.finishing, b.certificate.finishing);

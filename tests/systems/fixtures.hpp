@@ -35,6 +35,16 @@ struct Variant {
 template <class System>
 struct Fixture;
 
+// The same control by a ramp that is not over within a test, of a cell that is damped.
+template <class State>
+void ramped(CellControl<State::D>& control, const State& s) {
+  control.ramp.start = s.time, control.ramp.length = 1e4 * s.time_step;
+  control.ramp.strain_rate = {};
+  for (int a = 0; a < State::D; ++a)
+    control.ramp.stress[a] = 0.5 * control.stress[static_cast<std::size_t>(a)].value_or(0);
+  control.damping = 1e-3 / s.time_step;
+}
+
 template <>
 struct Fixture<Disks> {
   static constexpr bool kLedger = true;  // energies can be watched
@@ -74,6 +84,7 @@ struct Fixture<Disks> {
           if (room == "free cell") {
             v.control.stress = isotropic<2>(100), v.control.max_strain_rate = 2;
             v.control.inertia = 0.3 * oracle::total_mass(v.state);
+            if (law == "rolling") ramped(v.control, v.state);  // and damped
           }
           if (room == "sheared cell") {
             v.control.stress[1] = 100, v.control.shear_rate = 5, v.control.max_strain_rate = 2;
@@ -82,6 +93,11 @@ struct Fixture<Disks> {
           if (room == "no cell") v.state.packing.cell.reset(), v.state.cell_motion = {};
           list.push_back(std::move(v));
         }
+    Variant<Disks> unlike = list[6];
+    unlike.name += ", unlike densities";
+    for (std::size_t k = 0; k < unlike.state.packing.bodies.size(); k += 3)
+      unlike.state.packing.bodies.mass[k] *= 4, unlike.state.packing.bodies.inertia[k] *= 4;
+    list.push_back(std::move(unlike));
     return list;
   }
 
@@ -191,6 +207,7 @@ struct Fixture<TriangleGrains> {
       list.back().name += ", " + std::to_string(list.size());
       free_cell(list.back());
     }
+    ramped(list.back().control, list.back().state);
     for (const ContainerWalls walls : {ContainerWalls::smooth, ContainerWalls::grains}) {
       const std::string room = walls == ContainerWalls::smooth ? ", smooth walls" : ", walls of grains";
       Moving m = shaken(count, walls);
@@ -274,6 +291,7 @@ struct Fixture<Spheres> {
     if (room == "free cell") {
       v.control.stress = isotropic<3>(100), v.control.max_strain_rate = 2;
       v.control.inertia = 0.3 * oracle::total_mass(v.state);
+      if (law.rolling_friction > 0) ramped(v.control, v.state);
     }
     if (room == "walls") enclose(v.state.packing);
     return v;

@@ -1,6 +1,7 @@
 #include "dem/files/formats/csv.hpp"
 
 #include "dem/files/formats/real_text.hpp"
+#include "dem/state/joins_grains.hpp"
 
 namespace isostat {
 namespace {
@@ -23,7 +24,7 @@ template <int D>
 std::string grains_csv(const Packing<D>& packing) {
   const Bodies<D>& b = packing.bodies;
   std::string text = D == 2 ? "id,x,y,r,vx,vy,omega\n" : "id,x,y,z,r,vx,vy,vz,wx,wy,wz\n";
-  for (std::size_t k = 0; k < b.size(); ++k) {
+  for (std::size_t k = 0; k < packing.grains(); ++k) {
     text += std::to_string(b.id[k]);
     append(text, b.position[k]);
     append(text, b.radius[k]);
@@ -38,6 +39,7 @@ template <int D>
 std::string contacts_csv(const Packing<D>& packing) {
   std::string text = D == 2 ? "i,j,s1,s2,kind,h,N,T,M\n" : "i,j,s1,s2,s3,kind,h,N,Tx,Ty,Tz,Mx,My,Mz\n";
   for (const Link<D>& l : packing.links) {
+    if (!joins_grains(packing, l)) continue;
     text += std::to_string(packing.bodies.id[static_cast<std::size_t>(l.i)]) + ',' +
             std::to_string(packing.bodies.id[static_cast<std::size_t>(l.j)]);
     for (const int s : l.shift) text += ',' + std::to_string(s);

@@ -4,7 +4,11 @@
 #include <array>
 #include <charconv>
 
+#include "dem/files/formats/column_names.hpp"
 #include "dem/files/formats/real_text.hpp"
+#include "dem/files/formats/table_packing.hpp"
+#include "dem/files/formats/text_lines.hpp"
+#include "dem/state/joins_grains.hpp"
 
 namespace isostat {
 namespace {
@@ -46,38 +50,6 @@ std::string frame_header(const Packing<D>& packing, std::int64_t step, std::stri
   return text;
 }
 
-std::vector<std::string_view> fields_of(std::string_view line) {
-  std::vector<std::string_view> f;
-  constexpr std::string_view space = " \t\r";
-  for (std::size_t at = line.find_first_not_of(space); at != std::string_view::npos;) {
-    const std::size_t end = std::min(line.find_first_of(space, at), line.size());
-    f.push_back(line.substr(at, end - at));
-    at = line.find_first_not_of(space, end);
-  }
-  return f;
-}
-
-// Lines of a text with their numbers.
-class Lines {
- public:
-  explicit Lines(std::string_view text) : text_(text) {}
-  bool next(std::string_view& line) {
-    if (at_ >= text_.size()) return false;
-    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
-    line = text_.substr(at_, end - at_);
-    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-    at_ = end + 1;
-    ++number_;
-    return true;
-  }
-  int number() const { return number_; }
-
- private:
-  std::string_view text_;
-  std::size_t at_ = 0;
-  int number_ = 0;
-};
-
 double number_or_throw(std::string_view text, const std::string& path, int line, const char* key) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -92,14 +64,19 @@ struct Box {
   double tilt = 0;
 };
 
+// ITEM: BOX BOUNDS [xy xz yz] [pp pp pp]; with xy xz yz a line has a third number, the tilt.
 Box parse_box(std::string_view item, Lines& lines, const std::string& path) {
   Box box;
-  auto words = fields_of(item);  // ITEM: BOX BOUNDS pp pp pp, of a tilted cell xy xz yz pp pp pp
-  const bool tilted = words.size() == 9 && words[3] == "xy" && words[4] == "xz" && words[5] == "yz";
-  if (tilted) words.erase(words.begin() + 3, words.begin() + 6);
-  if (words.size() > 6)
+  auto words = fields_of(item);
+  words.erase(words.begin(), words.begin() + 3);
+  if (!words.empty() && words[0] == "abc")
+    throw InputError(path, lines.number(), "BOX BOUNDS", std::string(item),
+                     "a cell of general edges is not read; LAMMPS writes that of the plane without triclinic/general");
+  const bool tilted = words.size() >= 3 && words[0] == "xy" && words[1] == "xz" && words[2] == "yz";
+  if (tilted) words.erase(words.begin(), words.begin() + 3);
+  if (words.size() > 3)
     throw InputError(path, lines.number(), "BOX BOUNDS", std::string(item), "'pp pp pp' or 'xy xz yz pp pp pp'");
-  for (std::size_t k = 0; k < 3; ++k) box.periodic[k] = words.size() == 6 && words[k + 3] == "pp";
+  for (std::size_t k = 0; k < 3; ++k) box.periodic[k] = words.size() == 3 && words[k] == "pp";
   for (std::size_t k = 0; k < 3; ++k) {
     std::string_view line;
     if (!lines.next(line))
@@ -107,7 +84,7 @@ Box parse_box(std::string_view item, Lines& lines, const std::string& path) {
     const auto f = fields_of(line);
     if (f.size() != (tilted ? 3 : 2))
       throw InputError(path, lines.number(), "BOX BOUNDS", std::string(line),
-                       tilted ? "must be three numbers" : "must be two numbers");
+                       tilted ? "must be two numbers and a tilt" : "must be two numbers");
     box.low[k] = number_or_throw(f[0], path, lines.number(), "BOX BOUNDS");
     box.high[k] = number_or_throw(f[1], path, lines.number(), "BOX BOUNDS");
     if (!(box.high[k] > box.low[k]))
@@ -123,21 +100,22 @@ Box parse_box(std::string_view item, Lines& lines, const std::string& path) {
   return box;
 }
 
-// A column of the table computed from another one, value * factor + summand.
-void convert_column(DumpFrame& frame, std::string_view from, const std::string& to, double factor, double summand) {
-  const auto col = frame.table.column(from);
-  if (!col || frame.table.column(to)) return;
-  frame.table.columns[*col] = to;
-  if (factor == 1 && summand == 0) return;
-  for (std::size_t row = 0; row < frame.table.rows(); ++row) {
-    std::string_view& cell = frame.table.cells[row * frame.table.columns.size() + *col];
-    const double value =
-        number_or_throw(cell, frame.table.path, frame.table.first_line + static_cast<int>(row), to.c_str());
+// Scaled coordinates: column `from` times factor plus summand is column `to`, unless that is there.
+void unscale(TextTable& table, const std::string& from, const std::string& to, double factor, double summand) {
+  const auto col = table.column(from);
+  if (!col || table.column(to)) return;
+  table.columns[*col] = to;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    std::string_view& cell = table.cell(row, *col);
+    const double value = number_or_throw(cell, table.path, table.lines[row], to.c_str());
     std::string text;
     append_real(text, value * factor + summand);
-    frame.owned.push_back(std::move(text));
-    cell = frame.owned.back();
+    table.owned.push_back(std::move(text));
+    cell = table.owned.back();
   }
+}
+void rename(TextTable& table, const std::string& from, const std::string& to) {
+  if (const auto col = table.column(from); col && !table.column(to)) table.columns[*col] = to;
 }
 
 }  // namespace
@@ -145,9 +123,9 @@ void convert_column(DumpFrame& frame, std::string_view from, const std::string& 
 template <int D>
 std::string grains_dump(const Packing<D>& packing, std::int64_t step) {
   const Bodies<D>& b = packing.bodies;
-  std::string text = frame_header(packing, step, "ATOMS", b.size());
+  std::string text = frame_header(packing, step, "ATOMS", packing.grains());
   text += "ITEM: ATOMS id type x y z radius vx vy vz omegax omegay omegaz mass\n";
-  for (std::size_t k = 0; k < b.size(); ++k) {
+  for (std::size_t k = 0; k < packing.grains(); ++k) {
     text += std::to_string(b.id[k]) + " 1";
     append_vector(text, b.position[k]);
     append(text, b.radius[k]);
@@ -161,9 +139,13 @@ std::string grains_dump(const Packing<D>& packing, std::int64_t step) {
 
 template <int D>
 std::string links_dump(const Packing<D>& packing, std::int64_t step) {
-  std::string text = frame_header(packing, step, "ENTRIES", packing.links.size());
+  std::string text =
+      frame_header(packing, step, "ENTRIES",
+                   static_cast<std::size_t>(std::count_if(packing.links.begin(), packing.links.end(),
+                                                          [&](const Link<D>& l) { return joins_grains(packing, l); })));
   text += D == 2 ? "ITEM: ENTRIES i j s1 s2 kind h N T M\n" : "ITEM: ENTRIES i j s1 s2 s3 kind h N Tx Ty Tz Mx My Mz\n";
   for (const Link<D>& l : packing.links) {
+    if (!joins_grains(packing, l)) continue;
     text += std::to_string(packing.bodies.id[static_cast<std::size_t>(l.i)]) + ' ' +
             std::to_string(packing.bodies.id[static_cast<std::size_t>(l.j)]);
     for (const int s : l.shift) text += ' ' + std::to_string(s);
@@ -187,65 +169,69 @@ std::string links_dump_path(std::string_view path) {
   return std::string(path) + ".contacts.dump";
 }
 
-DumpFrame parse_dump(std::string_view text, const std::string& path) {
+DumpFrame parse_dump(std::string given, const std::string& path, const ColumnNames& named) {
   DumpFrame frame;
-  frame.table.path = path;
+  TextTable& table = frame.table;
+  table.path = path;
+  const std::string& text = table.owned.emplace_back(std::move(given));
   Box box;
   Lines lines(text);
   std::string_view line;
   long long count = -1;
+  const auto integer = [&](const char* key, auto& value) {
+    const auto number = fields_of(line);
+    const auto [end, error] = number.empty() ? std::from_chars_result{nullptr, std::errc::invalid_argument}
+                                             : std::from_chars(number[0].data(), line.data() + line.size(), value);
+    if (error != std::errc{} || number.size() != 1 || end != number[0].data() + number[0].size() || value < 0)
+      throw InputError(path, lines.number(), key, std::string(line), "must be an integer, not negative");
+  };
   while (lines.next(line)) {
     const auto words = fields_of(line);
     if (words.empty()) continue;
     if (words[0] != "ITEM:")
       throw InputError(path, lines.number(), "", std::string(line), "expected a line 'ITEM: ...'");
     const std::string_view item = words.size() > 1 ? words[1] : "";
-    if (item == "TIMESTEP" || item == "TIME" || item == "UNITS") {
+    if (item == "TIME" || item == "UNITS") {
       lines.next(line);
+    } else if (item == "TIMESTEP") {
+      if (!lines.next(line)) break;
+      integer("TIMESTEP", frame.step.emplace());
     } else if (item == "NUMBER") {
       if (!lines.next(line)) break;
-      const auto number = fields_of(line);
-      const auto [end, error] = number.empty() ? std::from_chars_result{nullptr, std::errc::invalid_argument}
-                                               : std::from_chars(number[0].data(), line.data() + line.size(), count);
-      if (error != std::errc{} || number.size() != 1 || end != number[0].data() + number[0].size() || count < 0)
-        throw InputError(path, lines.number(), "NUMBER OF", std::string(line), "must be an integer, not negative");
-    } else if (item == "BOX") {
+      integer("NUMBER OF", count);
+    } else if (item == "BOX" && words.size() > 2) {
       box = parse_box(line, lines, path);
     } else if (item == "ATOMS" || item == "ENTRIES") {
-      frame.table.columns.assign(words.begin() + 2, words.end());
-      frame.table.cells.clear();
-      frame.table.first_line = lines.number() + 1;
+      table.header_line = lines.number();
+      table.columns.assign(words.begin() + 2, words.end());
+      table.cells.clear(), table.lines.clear();
       for (long long row = 0; row < count; ++row) {
         if (!lines.next(line))
           throw InputError(path, lines.number(), "", "",
                            "the file ends here; " + std::to_string(count - row) + " rows are missing");
         const auto f = fields_of(line);
-        if (f.size() != frame.table.columns.size())
+        if (f.size() != table.columns.size())
           throw InputError(path, lines.number(), "", std::to_string(f.size()) + " fields",
-                           "a row has as many fields as columns, " + std::to_string(frame.table.columns.size()));
-        frame.table.cells.insert(frame.table.cells.end(), f.begin(), f.end());
+                           "a row has as many fields as columns, " + std::to_string(table.columns.size()));
+        table.cells.insert(table.cells.end(), f.begin(), f.end());
+        table.lines.push_back(lines.number());
       }
     } else {
       throw InputError(path, lines.number(), "", std::string(line), "unknown item of a dump file");
     }
   }
-  if (frame.table.columns.empty()) throw InputError(path, 0, "", "", "has no 'ITEM: ATOMS' or 'ITEM: ENTRIES'");
+  if (table.columns.empty()) throw InputError(path, 0, "", "", "has no 'ITEM: ATOMS' or 'ITEM: ENTRIES'");
 
   const std::array<std::string, 3> axes{"x", "y", "z"};
   for (std::size_t k = 0; k < 3; ++k) {
     const double edge = box.high[k] - box.low[k];
-    if (box.tilt != 0 && (frame.table.column(axes[k] + "s") || frame.table.column(axes[k] + "su")))
+    if (box.tilt != 0 && (table.column(axes[k] + "s") || table.column(axes[k] + "su")))
       throw InputError(path, 0, axes[k] + "s", "", "scaled coordinates of a tilted cell; write x, y");
-    convert_column(frame, axes[k] + "u", axes[k], 1, 0);
-    convert_column(frame, axes[k] + "s", axes[k], edge, box.low[k]);
-    convert_column(frame, axes[k] + "su", axes[k], edge, box.low[k]);
+    rename(table, axes[k] + "u", axes[k]);
+    unscale(table, axes[k] + "s", axes[k], edge, box.low[k]);
+    unscale(table, axes[k] + "su", axes[k], edge, box.low[k]);
   }
-  convert_column(frame, "radius", "r", 1, 0);
-  convert_column(frame, "diameter", "r", 0.5, 0);
-  convert_column(frame, "mass", "m", 1, 0);
-  const int dimension = grain_dimension(frame.table);
-  if (dimension == 2) convert_column(frame, "omegaz", "omega", 1, 0);
-  for (const std::string& a : axes) convert_column(frame, "omega" + a, "w" + a, 1, 0);
+  const int dimension = grain_dimension(table, named);
   const auto periodic = std::count(box.periodic.begin(), box.periodic.begin() + dimension, true);
   if (periodic != 0 && periodic != dimension)
     throw InputError(path, 0, "BOX BOUNDS", "", "a cell is periodic along all axes of the packing, or along none");

@@ -1,11 +1,11 @@
 // LAMMPS dump files (LAMMPS, OVITO): grains as `dump custom`, links as `dump local` (docs/formats.md).
 #pragma once
 #include <cstdint>
-#include <deque>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "dem/files/formats/column_names.hpp"
 #include "dem/files/formats/text_table.hpp"
 #include "dem/state/packing.hpp"
 
@@ -21,16 +21,15 @@ std::string links_dump(const Packing<D>& packing, std::int64_t step);
 // "X.dump" -> "X.contacts.dump".
 std::string links_dump_path(std::string_view path);
 
-// The last frame of a dump, columns renamed to those of dem/files/formats/text_table.hpp: xu, yu, zu and the scaled xs,
-// ys, zs (xsu, ysu, zsu) are read as positions, radius or diameter as r. `box`: edges along the axes with a periodic
-// boundary ("pp"), of the cell itself where LAMMPS gives the box around a tilted one; a cell periodic along some of the
-// packing's axes only, or tilted otherwise than by xy, is refused.
+// The last frame of a dump. Positions are x, y, z, or xu, yu, zu, or the scaled xs, ys, zs (xsu, ysu, zsu). `box`:
+// edges along the axes with a periodic boundary ("pp"), of the cell itself where LAMMPS gives the box around a tilted
+// one; a cell periodic along some of the packing's axes only, or tilted otherwise than by xy, is refused.
 struct DumpFrame {
   TextTable table;
-  std::deque<std::string> owned;           // text of converted cells that the table views; stays put when moved
+  std::optional<std::int64_t> step;
   std::optional<std::vector<double>> box;  // [length] three edges
   double tilt = 0;                         // xy
 };
-DumpFrame parse_dump(std::string_view text, const std::string& path);
+DumpFrame parse_dump(std::string text, const std::string& path, const ColumnNames& named = {});
 
 }  // namespace isostat

@@ -1,40 +1,40 @@
-// Rows of fields under named columns, as in CSV and LAMMPS dumps, and their reading into grains and links.
+// Rows of fields under named columns: CSV and its relatives, LAMMPS dumps.
+//
+// A table of text is split at semicolons, commas, tabs or white space, whichever its first line has first in this
+// order; where that is not the comma, a comma inside a number is a decimal one. Blank lines and lines that begin with #
+// are left out. The first line names the columns. If it is numbers alone, the names are those of the comment above it
+// (`# x y z r`, or YADE's
+// `#format x_y_z_r`), and without one the columns are called 1, 2, ...
 #pragma once
-#include <cstdint>
+#include <deque>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "dem/input_error.hpp"
-#include "dem/state/packing.hpp"
-
 namespace isostat {
 
 struct TextTable {
+  TextTable() = default;
+  TextTable(TextTable&&) = default;
+  TextTable& operator=(TextTable&&) = default;
+
   std::string path;
-  int first_line = 0;  // line number of the first row
+  int header_line = 0;  // 0: the file has no line of names
   std::vector<std::string> columns;
-  std::vector<std::string_view> cells;  // row by row; views into the file's text
-  std::size_t rows() const { return columns.empty() ? 0 : cells.size() / columns.size(); }
+  std::vector<std::string_view> cells;  // row by row; views into `owned`, which keeps its strings in place
+  std::vector<int> lines;               // in the file, of the rows
+  std::deque<std::string> owned;
+  std::size_t rows() const { return lines.size(); }
   std::optional<std::size_t> column(std::string_view name) const;
   std::string_view cell(std::size_t row, std::size_t col) const { return cells[row * columns.size() + col]; }
+  std::string_view& cell(std::size_t row, std::size_t col) { return cells[row * columns.size() + col]; }
 };
 
-// Header line of names and comma-separated rows. Throws InputError for rows of another length.
-TextTable parse_csv(std::string_view text, const std::string& path);
+// Throws InputError for rows of another length than the first line.
+TextTable parse_table(std::string text, const std::string& path);
 
-// Dimension of a table of grains: 3 if it has a column z that is not zero throughout, else 2.
-int grain_dimension(const TextTable& grains);
-
-// Columns id, x, y(, z), r; optional vx, vy(, vz), omega (3D wx, wy, wz), m. Other columns are ignored. Without m the
-// largest grain gets mass 1 and all the same density. Throws InputError listing the faults with their lines.
-template <int D>
-Bodies<D> read_grains(const TextTable& grains);
-
-// Columns i, j (ids of grains); optional s1, s2(, s3), kind (letters or their number), h, N, T (3D Tx, Ty, Tz), M (3D
-// Mx, My, Mz). Without shifts the nearest image is meant, without h the gap of the positions, without kind c.
-template <int D>
-std::vector<Link<D>> read_links(const TextTable& links, const Packing<D>& grains);
+// Whether the first line of a text may be that of such a table: names or numbers, at least two.
+bool begins_like_table(std::string_view text);
 
 }  // namespace isostat

@@ -13,7 +13,7 @@ Vec3 spatial(const Vec3& v) { return v; }
 template <int D>
 std::string extended_xyz(const Packing<D>& packing, double time) {
   const Bodies<D>& b = packing.bodies;
-  std::string text = std::to_string(b.size()) + "\n";
+  std::string text = std::to_string(packing.grains()) + "\n";
   if (packing.cell) {
     text += "Lattice=\"";
     for (int row = 0; row < 3; ++row)
@@ -30,7 +30,7 @@ std::string extended_xyz(const Packing<D>& packing, double time) {
   text += " Time=";
   append_real(text, time);
   text += " Properties=species:S:1:pos:R:3:id:I:1:radius:R:1:velo:R:3:angular_velocity:R:3:mass:R:1\n";
-  for (std::size_t k = 0; k < b.size(); ++k) {
+  for (std::size_t k = 0; k < packing.grains(); ++k) {
     text += "X";
     const auto vector = [&text](const Vec3& v) {
       for (int a = 0; a < 3; ++a) append(text, v[a]);

@@ -351,6 +351,21 @@ TEST(SeriesPlot, OnePanelAQuantity) {
   EXPECT_THROW(table_plot("series").make(parse_table("a,b\n1,2\n", "s.csv")), InputError);
 }
 
+// Nine energies, eight colours: no two curves of a panel look the same.
+TEST(SeriesPlot, CurvesOfAPanelDiffer) {
+  const DataTable t = parse_table(
+      "t,E_kinetic,E_elastic,E_adhesive,E_viscous,E_sliding,E_rolling,E_drag,E_cell_work,E_total\n"
+      "0,1,2,3,4,5,6,7,8,9\n1,1,2,3,4,5,6,7,8,9\n",
+      "s.csv");
+  const Plot plot = table_plot("series").make(t);
+  ASSERT_EQ(plot.charts.size(), 1u);
+  const std::vector<Curve>& curves = plot.charts[0].curves;
+  ASSERT_EQ(curves.size(), 9u);
+  for (std::size_t a = 0; a < curves.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      EXPECT_FALSE(curves[a].color == curves[b].color && curves[a].style == curves[b].style) << a << ' ' << b;
+}
+
 TEST(SeriesPlot, SaysWhereStaticSolvesJumpedAndWhatIsImposed) {
   const Plot plot = table_plot("series").make(parse_table(
       "t,Phi,sigma11,imposed11,stage,static_solves\n0,.3,1,nan,0,0\n1,.4,1,2,1,2\n2,.41,2,2,1,2\n", "s.csv"));

@@ -56,7 +56,6 @@ TEST(SphereScene, RefusesWhatCannotBe) {
   expect_refused("[finish]\nmethod = \"newton\"\n" + kPressed, "finish.method", "static solves are of disks");
   expect_refused("[output]\nseries = \"s.csv\"\nenergies = true\n" + kPressed, "output.energies", "no energy ledger");
   expect_refused("[[stage]]\npressure = 0\n", "stage.0.pressure", "greater than 0");
-  expect_refused("[[stage]]\npressure = 1\nvelocity = 2\n", "stage.0.velocity", "law.attraction is 0");
   expect_refused("[[stage]]\npressure = 1\nuntil = \"aggregated\"\n", "stage.0.until", "needs law.attraction > 0");
   expect_refused("[[stage]]\npressure = 1\nstress_3 = 2\nstrain_rate_3 = 0.1\nuntil = \"strain\"\nstrain = 0.1\n",
                  "stage.0.strain_rate_3", "not both");

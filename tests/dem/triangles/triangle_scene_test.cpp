@@ -40,7 +40,7 @@ TEST(TriangleScene, HasItsOwnKeysAndDefaults) {
   EXPECT_EQ(s.triangle_law.friction, 0.3);
   EXPECT_EQ(s.triangle_law.limit_tension, 50.0);
   EXPECT_FALSE(s.triangle_law.limit_shear);
-  EXPECT_EQ(s.step.fraction, 0.6);
+  EXPECT_EQ(triangle_step_fraction(s), 0.6);
   EXPECT_EQ(s.stages.at(0).max_time, 60.0);
   EXPECT_EQ(s.finish.drag, 50.0);
   EXPECT_EQ(shape_names(s.triangle_grains.shape), (std::vector<std::string>{"square", "polygon6"}));
