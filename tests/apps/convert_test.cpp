@@ -39,6 +39,8 @@ class Convert : public Program {
     EXPECT_EQ(o.code, 0) << o.err;
     Json json = o.code == 0 ? Json::parse(o.out) : Json();
     json.erase("inputs");
+    for (const char* of_the_run : {"inertial_number", "stress_error"})  // the certificate is not kept by texts
+      if (json.contains("equilibrium")) json["equilibrium"].erase(of_the_run);
     return json;
   }
 };
