@@ -1,9 +1,8 @@
 // isostat convert INPUT... -o OUTPUT: the output's extension names its format; several inputs make a film.
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <optional>
 
+#include "apps/analysis_options.hpp"
 #include "apps/arguments.hpp"
 #include "apps/commands.hpp"
 #include "apps/convert/film.hpp"
@@ -23,23 +22,6 @@
 namespace isostat {
 namespace {
 
-std::vector<double> parse_box(const std::string& text) {
-  std::vector<double> edges;
-  const auto refuse = [&] {
-    throw InputError("command line", 0, "--box", text, "must be two (3D: three) positive edges, as in 10,20");
-  };
-  for (std::size_t at = 0; at <= text.size();) {
-    const std::size_t end = std::min(text.find(',', at), text.size());
-    double edge = 0;
-    const auto [stop, error] = std::from_chars(text.data() + at, text.data() + end, edge);
-    if (error != std::errc{} || stop != text.data() + end || !std::isfinite(edge) || !(edge > 0)) refuse();
-    edges.push_back(edge);
-    at = end + 1;
-  }
-  if (edges.size() != 2 && edges.size() != 3) refuse();
-  return edges;
-}
-
 double unit(const Arguments& arguments, const char* name) {
   const double value = arguments.number(name).value_or(1);
   if (!(value > 0)) throw InputError("command line", 0, name, *arguments.value(name), "must be positive");
@@ -48,13 +30,11 @@ double unit(const Arguments& arguments, const char* name) {
 
 PackingReading reading_of(const Arguments& arguments) {
   PackingReading reading;
-  if (const auto box = arguments.value("--box")) reading.box = parse_box(*box);
+  const AnalysisOptions given = reading_options(arguments);
+  reading.box = given.box, reading.gap_tolerance = given.gap_tolerance;
   if (const auto columns = arguments.value("--columns")) reading.columns = parse_column_names(*columns);
   reading.contacts = arguments.value("--contacts").value_or("");
   reading.length = unit(arguments, "--length"), reading.force = unit(arguments, "--force");
-  reading.gap_tolerance = arguments.number("--gap-tolerance");
-  if (reading.gap_tolerance && *reading.gap_tolerance < 0)
-    throw InputError("command line", 0, "--gap-tolerance", *arguments.value("--gap-tolerance"), "must not be negative");
   return reading;
 }
 
@@ -69,6 +49,7 @@ State<System> moved(const State<System>& base, const std::string& input, Packing
   if (base.packing.cell) {
     reading.own_cell.emplace();
     for (const double edge : base.packing.cell->length.c) reading.own_cell->push_back(edge * reading.length);
+    reading.own_tilt = base.packing.cell->tilt * reading.length;
   }
   const PackingFile file = read_packing(input, reading);
   if (file.format != PackingFormat::csv && file.format != PackingFormat::dump)

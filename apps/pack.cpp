@@ -114,8 +114,7 @@ std::vector<std::string> files_of(const PackJob& job, const std::optional<std::s
   const OutputScene& o = job.scene.output;
   for (int k = 0; k < job.samples; ++k) {
     const std::string output = numbered(job.output, k, job.samples);
-    if (o.keeps_snapshots())
-      rule.writes_numbered("the snapshots", output, "snapshot");
+    if (o.keeps_snapshots()) rule.writes_numbered("the snapshots", output, "snapshot");
     writes("-o", output);
     writes("-o, the partial state", partial_name(output));
     for (std::size_t stage = 0; o.stages && stage + 1 < job.scene.stages.size(); ++stage)

@@ -41,6 +41,7 @@ double affine_rms(const Packing<D>& before, const Packing<D>& after) {
   if (!before.cell || !after.cell) return NAN;
   double sum = 0;
   for (int k = 0; k < D; ++k) sum += std::pow(after.cell->length[k] - before.cell->length[k], 2) / 12;
+  sum += std::pow(followed(*before.cell, *after.cell).tilt - before.cell->tilt, 2) / 12;
   return std::sqrt(sum);
 }
 

@@ -30,7 +30,7 @@ namespace {
 // From the units of the file to those of --length and --force. Times and masses stay.
 template <int D>
 void rescale(Packing<D>& packing, double length, double force) {
-  if (packing.cell) packing.cell->length = packing.cell->length / length;
+  if (packing.cell) packing.cell->length = packing.cell->length / length, packing.cell->tilt /= length;
   Bodies<D>& b = packing.bodies;
   for (std::size_t k = 0; k < b.size(); ++k) {
     b.position[k] = b.position[k] / length, b.velocity[k] = b.velocity[k] / length;
@@ -181,7 +181,10 @@ void read_tables_into(PackingFile& file, const TextTable& grains, const BesideGr
     packing.cell->tilt = beside.tilt;
   }
   set_box(packing, grains.path, reading);
-  if (!packing.cell && reading.own_cell && reading.own_cell->size() == D) packing.cell = cell_of<D>(*reading.own_cell);
+  if (!packing.cell && reading.own_cell && reading.own_cell->size() == D) {
+    packing.cell = cell_of<D>(*reading.own_cell);
+    packing.cell->tilt = reading.own_tilt;
+  }
   check_cell(packing, grains.path);
   require_lengths(packing.cell, packing.bodies, grains.path, reading.gap_tolerance);
   file.links_given = beside.links.has_value();

@@ -36,6 +36,7 @@ struct PackingReading {
   // Of the state that a moved packing is put into (--from): what a table has no column for.
   std::optional<double> radius;                 // of all grains, until the state says it
   std::optional<std::vector<double>> own_cell;  // where neither the file nor --box has one
+  double own_tilt = 0;                          // of that cell
 };
 
 // Throws InputError if the file cannot be read, is of no known format, is faulty, or has a cell and is given another.

@@ -158,8 +158,9 @@ TEST(Comparison, ShearIsAffineWhateverTheTilt) {
   const Comparison<2> c = compare(before, q, 0.05);
   for (const Vec2& u : c.displacement) EXPECT_LT(norm(u), 1e-12);
   EXPECT_EQ(c.contacts.kept_before.size() + c.distant.kept_before.size(), p.links.size());
-  EXPECT_NEAR(comparison_json(before, q, c, 0.05)["cell"]["shear"].get<double>(),
-              0.4 * p.cell->length[0] / p.cell->length[1], 1e-12);
+  const auto json = comparison_json(before, q, c, 0.05);
+  EXPECT_NEAR(json["cell"]["shear"].get<double>(), 0.4 * p.cell->length[0] / p.cell->length[1], 1e-12);
+  EXPECT_NEAR(json["displacement"]["affine_rms"].get<double>(), 0.4 * p.cell->length[0] / std::sqrt(12), 1e-12);
 }
 
 TEST(Comparison, LinksThatComeAndGoAreNamedByTheirGrains) {

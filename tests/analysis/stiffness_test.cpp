@@ -139,8 +139,8 @@ TEST(Moduli, TriangularLattice) {
   EXPECT_NEAR(central[2][2], q * 5, 1e-11);
 }
 
-// No grain of a Bravais lattice leaves the affine motion; the shares follow from the closed form above: for e11 = e22 = 1
-// every bond is shortened alike, for gamma12 three quarters of the bonds' energy K_N and a share K_T as C33 says.
+// No grain of a Bravais lattice leaves the affine motion; the shares follow from the closed form above: for e11 = e22 =
+// 1 every bond is shortened alike, for gamma12 three quarters of the bonds' energy K_N and a share K_T as C33 says.
 TEST(Moduli, EnergyOfTheTriangularLattice) {
   const Packing<2> p = cluster("periodic_triangular4");
   DiskLaw law = default_network_law();

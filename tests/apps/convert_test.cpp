@@ -29,9 +29,9 @@ class Convert : public Program {
     ASSERT_TRUE(exists("s.snapshot0003.h5"));
     ASSERT_FALSE(exists("s.snapshot0004.h5"));
   }
-  void convert(const std::string& arguments) const {
+  void convert(const std::string& arguments, int code = 0) const {
     const Outcome o = run("convert" + arguments);
-    ASSERT_EQ(o.code, 0) << arguments << o.err;
+    ASSERT_EQ(o.code, code) << arguments << o.err;
   }
   std::string hash(const std::string& name) const { return read_state_file(in_folder(name)).hash; }
   Json report(const std::string& name, const std::string& sections) const {
@@ -59,6 +59,27 @@ TEST_F(Convert, TextKeepsWhatAStateIs) {
   convert(file("s.h5") + "-o" + file("t.net"));
   EXPECT_EQ(report("t.net", "counts,rigidity,clusters"), report("s.h5", "counts,rigidity,clusters"));
   EXPECT_EQ(content(in_folder("t.grains.csv")).substr(0, 21), "id,x,y,r,vx,vy,omega\n");
+}
+
+// A cell that leans: through each text, and into another state.
+TEST_F(Convert, TextKeepsTheTilt) {
+  write("shear.toml", quick_scene(60) + "[[stage]]\nshear_rate = 0.05\nuntil = \"strain\"\nstrain = 0.3\n");
+  ASSERT_EQ(run("pack" + file("shear.toml") + "-o" + file("leans.h5")).code, 0);
+  const double tilt = read_state<Disks>(in_folder("leans.h5")).packing.cell->tilt;
+  ASSERT_GT(tilt, 1);
+  const std::string sections = "counts,equilibrium,stress,rigidity,moduli,pores";
+  const Json before = report("leans.h5", sections);
+  for (const char* text : {"l.csv", "l.dump"}) {
+    convert(file("leans.h5") + "-o" + file(text));
+    convert(file(text) + "-o" + file("l.h5"));
+    EXPECT_EQ(hash("l.h5"), hash("leans.h5")) << text;
+    EXPECT_EQ(report(text, sections), before) << text;
+    convert(file(text) + "--from" + file("leans.h5") + "-o" + file("back.h5"));
+    EXPECT_EQ(hash("back.h5"), hash("leans.h5")) << text;
+  }
+  convert(file("leans.h5") + "-o" + file("l.net"));
+  EXPECT_EQ(report("l.net", "counts,rigidity,pores"), report("leans.h5", "counts,rigidity,pores"));
+  convert(file("l.csv") + "--length 2 -o" + file("half.h5"), 2);  // it has its law, and so its units
 }
 
 TEST_F(Convert, ThereAndBackAgain) {
