@@ -33,6 +33,25 @@ const std::map<std::string_view, const char*>& titles() {
   return known;
 }
 
+// Columns of a study. Stresses have no unit here: it is F0/a in the plane and F0/a^2 in space.
+const std::map<std::string_view, const char*>& titles_of_studies() {
+  static const std::map<std::string_view, const char*> known{
+      {"counts.solid_fraction", "Φ"},
+      {"counts.z", "`z`"},
+      {"counts.z_star", "`z`*"},
+      {"stage.pressure", "`P`*"},
+      {"law.friction", "μ"},
+      {"grains.solid_fraction", "Φ_{I}"},
+      {"rigidity.H", "`H`"},
+      {"rigidity.K", "`K`"},
+      {"moduli.bulk", "bulk modulus `K`"},
+      {"moduli.shear", "shear modulus `G`"},
+      {"pores.mean_radius_weighted", "mean pore radius / `a`"},
+      {"e", "void ratio `e`"},
+  };
+  return known;
+}
+
 Curve curve_of(const DataTable& table, const DataColumn& x, const DataColumn& y) {
   const DataColumn* error = table.find(y.name + "_se");
   if (error && !error->numeric()) error = nullptr;
@@ -49,9 +68,11 @@ Curve curve_of(const DataTable& table, const DataColumn& x, const DataColumn& y)
 }  // namespace
 
 RichText column_title(const DataTable& table, const std::string& name) {
-  const auto known = titles().find(name);
-  const bool reduced = table.columns[0].name == "t" && table.find("kinetic_energy") && !table.find("beam_tension");
-  return reduced && known != titles().end() ? rich(known->second) : plain(name);
+  const bool series = table.columns[0].name == "t" && table.find("kinetic_energy") && !table.find("beam_tension");
+  const bool study = table.columns[0].name == "row" && table.find("runs");
+  const auto& known = study ? titles_of_studies() : titles();
+  const auto found = known.find(name);
+  return (series || study) && found != known.end() ? rich(found->second) : plain(name);
 }
 
 Plot column_plot(const std::vector<DataTable>& tables, const std::string& x_name,

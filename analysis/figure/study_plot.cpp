@@ -1,9 +1,11 @@
 #include "analysis/figure/study_plot.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 
+#include "analysis/figure/column_plot.hpp"
 #include "dem/input_error.hpp"
 
 namespace isostat {
@@ -17,6 +19,11 @@ std::vector<const DataColumn*> parameters(const DataTable& table) {
   for (std::size_t c = 1; c < table.columns.size() && table.columns[c].name != "runs"; ++c)
     list.push_back(&table.columns[c]);
   return list;
+}
+
+// Differs between the stages of one set: its number, and its keys.
+bool of_stage(std::string_view name) {
+  return name == "stage" || (name.starts_with("stage.") && !std::isdigit(static_cast<unsigned char>(name[6])));
 }
 
 std::string label_of(const std::vector<const DataColumn*>& columns, std::size_t row) {
@@ -37,8 +44,9 @@ Plot study_plot(const DataTable& table, const std::string& x_name, const std::st
 
   std::vector<const DataColumn*> telling = parameters(table);
   const bool against_parameter = std::find(telling.begin(), telling.end(), &x) != telling.end();
+  const bool path = of_stage(x.name);  // forth and back, in the order of the stages
   std::erase_if(telling, [&](const DataColumn* c) {
-    return !against_parameter || c == &x ||
+    return !against_parameter || c == &x || (path && of_stage(c->name)) ||
            std::all_of(c->text.begin(), c->text.end(), [&](const std::string& t) { return t == c->text[0]; });
   });
 
@@ -56,11 +64,11 @@ Plot study_plot(const DataTable& table, const std::string& x_name, const std::st
   if (order.empty()) throw InputError(table.path, 0, "--y", y_name, "no row has a number here and in " + x.name);
 
   Chart chart;
-  chart.x.title = plain(x.name);
-  chart.y.title = plain(y.name);
+  chart.x.title = column_title(table, x.name);
+  chart.y.title = column_title(table, y.name);
   for (std::size_t k = 0; k < order.size(); ++k) {
     std::vector<Point>& points = groups[order[k]];
-    std::stable_sort(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.x < b.x; });
+    if (!path) std::stable_sort(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.x < b.x; });
     const Color paint = curve_color(color++);
     Curve marks{plain(order[k]), CurveStyle::points, {}, {}, {}, {}, paint};
     for (const Point& p : points) {

@@ -386,7 +386,7 @@ law.friction = [0.1, 0.3, 0.5]
   const std::string plot = "plot " + in_folder("out/study.csv") + " -o " + in_folder("z.svg");
   ASSERT_EQ(run(plot + " --what study --x law.friction --y z").code, 0);
   const std::string svg = text("z.svg");
-  for (const char* said : {"rolling = true", "rolling = false", "law.friction", "counts.z"})
+  for (const char* said : {"rolling = true", "rolling = false", ">μ<", "<tspan font-style=\"italic\">z</tspan>"})
     EXPECT_THAT(svg, HasSubstr(said));
   EXPECT_EQ(run(plot + " --x solid_fraction --y z").code, 2) << "which solid fraction";
   EXPECT_EQ(run(plot + " --x counts.solid_fraction --y z").code, 0);

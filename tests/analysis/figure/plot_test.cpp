@@ -1,6 +1,7 @@
 // From result files to charts.
 #include "analysis/figure/plot.hpp"
 #include "analysis/figure/column_plot.hpp"
+#include "analysis/figure/study_plot.hpp"
 
 #include <gtest/gtest.h>
 
@@ -444,6 +445,22 @@ TEST_F(PlotFiles, FaultsSayWhatThereIs) {
   EXPECT_NE(message_of([&] { read_plot(file("x.json", "{\"a\": "), ""); }).find("no JSON"), std::string::npos);
   EXPECT_THROW(read_plot(folder_ / "missing.json", ""), InputError);
   EXPECT_THROW(read_plot(file("x.txt", ""), ""), InputError);
+}
+
+TEST(StudyPlot, ALoadPathGoesForthAndBack) {
+  const DataTable table = parse_table(
+      "row,stage,stage.pressure,law.friction,runs,n,e,e_sd,e_se\n"
+      "a,1,0.1,0.2,2,2,1.5,.1,.07\na,2,1,0.2,2,2,0.9,.1,.07\na,3,0.1,0.2,2,2,0.91,.1,.07\n"
+      "b,1,0.1,0.5,2,2,1.6,.1,.07\nb,2,1,0.5,2,2,1.0,.1,.07\nb,3,0.1,0.5,2,2,1.01,.1,.07\n",
+      "study.csv");
+  std::size_t color = 0;
+  const Plot plot = study_plot(table, "stage.pressure", "e", color);
+  ASSERT_EQ(plot.charts.size(), 1u);
+  ASSERT_EQ(plot.charts[0].curves.size(), 4u);  // a line and its points for each friction
+  EXPECT_EQ(plot.charts[0].curves[1].x, (std::vector<double>{0.1, 1, 0.1}));
+  EXPECT_EQ(plot.charts[0].curves[1].y, (std::vector<double>{1.5, 0.9, 0.91}));
+  EXPECT_EQ(plot.charts[0].curves[3].y, (std::vector<double>{1.6, 1.0, 1.01}));
+  EXPECT_EQ(color, 2u);
 }
 
 }  // namespace
