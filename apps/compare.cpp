@@ -9,6 +9,7 @@
 #include "analysis/load_input.hpp"
 #include "analysis/report_text.hpp"
 #include "analysis/version.hpp"
+#include "apps/analysis_options.hpp"
 #include "apps/arguments.hpp"
 #include "apps/commands.hpp"
 #include "apps/file_rule.hpp"
@@ -107,10 +108,7 @@ int compare_command(int argc, char** argv) {
       throw InputError("command line", 0, "--tolerance", *arguments.value("--tolerance"), "must be in (0, 1)");
     outputs.tolerance = *tolerance;
   }
-  AnalysisOptions options;
-  options.gap_tolerance = arguments.number("--gap-tolerance");
-  if (options.gap_tolerance && *options.gap_tolerance < 0)
-    throw InputError("command line", 0, "--gap-tolerance", *arguments.value("--gap-tolerance"), "must not be negative");
+  const AnalysisOptions options = reading_options(arguments);
   outputs.csv = arguments.value("--csv");
   const auto json_path = arguments.value("--json"), picture = arguments.value("-o");
   FileRule rule;

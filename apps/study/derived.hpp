@@ -12,7 +12,6 @@ namespace isostat {
 struct DerivedColumn {
   std::string name;
   Expression of;
-  int line = 0;
 };
 
 // The slope of the straight line of y against x through the stages of a sample, by least squares.
@@ -20,7 +19,6 @@ struct PathSlope {
   std::string name;
   Expression x, y;
   std::vector<std::size_t> stages;
-  int line = 0;
 };
 
 // The numbers of one sample after one stage, by the names of their columns.

@@ -20,8 +20,7 @@ class ColumnMaker {
     for (const DerivedText& text : file_.derived) {
       const std::string key = "derived." + text.name;
       check_name(text.name, key, text.line);
-      if (auto of = expression(text.of, key, text.line))
-        study_.derived.push_back({text.name, std::move(*of), text.line});
+      if (auto of = expression(text.of, key, text.line)) study_.derived.push_back({text.name, std::move(*of)});
     }
     for (const SlopeText& text : file_.slopes) {
       check_name(text.name, "slope.name", text.line);
@@ -31,7 +30,7 @@ class ColumnMaker {
         for (const ParameterSet& set : study_.sets)
           if (std::find(set.stages.begin(), set.stages.end(), stage) == set.stages.end())
             faults_.add(text.line, "slope.stages", std::to_string(stage), "is not among the stages that are analysed");
-      if (x && y) study_.slopes.push_back({text.name, std::move(*x), std::move(*y), text.stages, text.line});
+      if (x && y) study_.slopes.push_back({text.name, std::move(*x), std::move(*y), text.stages});
     }
   }
 

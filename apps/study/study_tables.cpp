@@ -28,7 +28,7 @@ struct Ensemble {
   std::string name;
   std::vector<std::string> states;     // file names
   std::vector<std::uint64_t> seeds;    // of the samples,
-  std::vector<SampleNumbers> numbers;  // and their numbers
+  std::vector<SampleNumbers> numbers;  // and their numbers; both only where something is derived from them
   Json report;                         // merged; null without samples
   std::vector<std::pair<std::string, Json>> scalars;
 };
@@ -82,6 +82,7 @@ std::vector<Ensemble> ensembles_of(const Study& study, const std::vector<StudyRu
         if (!report || !has_sections(*report, study.analysis.sections)) continue;
         reports.push_back(only_sections(*report, study.analysis.sections));
         e.states.push_back(fs::path(runs[k].state(stage)).filename().string());
+        if (study.derived.empty() && study.slopes.empty()) continue;
         e.seeds.push_back(runs[k].seed);
         e.numbers.push_back(numbers_of(study, set, stage, reports.back()));
       }

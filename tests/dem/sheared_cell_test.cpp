@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "dem/disks/certificate.hpp"
@@ -89,6 +90,41 @@ TEST(ShearStages, SimpleShearGoesToItsStrainUnderItsNormalStress) {
   std::string header;
   for (const SeriesColumn& c : series_columns(kept, false)) header += std::string(c.name) + ",";
   EXPECT_THAT(header, HasSubstr("imposed22,imposed12,tilt,shear_strain,shear_rate,inertial_number,"));
+}
+
+// A ramp brings the rate of shear linearly, takes it on from the stage before, and is exact through a state file.
+TEST(ShearStages, RampsOfShearAreFunctionsOfTime) {
+  const std::string text =
+      kScene +
+      "[[stage]]\npressure = 0.5\nshear_rate = 0.1\nramp_time = 2.0\nuntil = \"time\"\ntime = 3.0\n"
+      "[[stage]]\npressure = 0.5\nshear_rate = 0.04\nramp_time = 1.0\nuntil = \"time\"\ntime = 2.0\n";
+  const Scene scene = parse_scene(text, "scene.toml", {});
+  State<Disks> straight = initial_disks(scene, scene.seed);
+  std::vector<std::string> kept;
+  RunHooks<Disks> hooks;
+  hooks.checkpoint_seconds = 1e-9;
+  hooks.checkpoint = [&](const State<Disks>& s) { kept.push_back(encode_state(s)); };
+  ASSERT_TRUE(run_stages(straight, {}, hooks).all_met());
+  int in_ramp = 0, taken_over = 0;
+  for (const std::string& bytes : kept) {
+    const State<Disks> s = std::get<State<Disks>>(decode_state(bytes, "kept").state);
+    const std::size_t last = s.scene.stages.size() - 1, stage = static_cast<std::size_t>(s.progress.stage);
+    if (stage + 1 < last || stage > last || !s.progress.started || !(s.time > s.progress.start_time + s.time_step))
+      continue;
+    const double since = s.time - s.progress.start_time - s.time_step;
+    const double from = stage == last ? 0.1 : 0, to = stage == last ? 0.04 : 0.1, length = stage == last ? 1 : 2;
+    const double rate =
+        -s.cell_motion.shear_strain_rate * s.cell_motion.reference_length[1] / s.packing.cell->length[1];
+    const double expected = to + (from - to) * std::max(0.0, 1 - since / length);
+    EXPECT_NEAR(rate, expected, 2e-3 * expected + 1e-4) << "at " << since << " of stage " << stage;
+    in_ramp += since < length;
+    taken_over += stage == last && since < length;
+  }
+  EXPECT_GT(in_ramp, 3);
+  EXPECT_GT(taken_over, 0);
+  State<Disks> s = std::get<State<Disks>>(decode_state(kept[kept.size() / 2], "kept").state);
+  run_stages(s, {}, {});
+  EXPECT_EQ(encode_state(s), encode_state(straight));
 }
 
 // Through a state file amid the shear, after the cell has turned back once.
