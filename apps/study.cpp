@@ -72,7 +72,7 @@ void check_existing(const std::vector<StudyRun>& runs, bool fresh) {
         if (state.seed != run.seed)
           difference = "seed = " + std::to_string(state.seed) + ", not " + std::to_string(run.seed);
         else
-          difference = first_difference(state.scene, run.set->scene);
+          difference = first_difference(state.scene, run.scene());
       } catch (const InputError& error) {
         if (!fresh) faults.insert(faults.end(), error.faults().begin(), error.faults().end());
         difference = "unreadable";
@@ -91,10 +91,8 @@ void check_existing(const std::vector<StudyRun>& runs, bool fresh) {
 void refuse_own_inputs(const Study& study, const std::vector<StudyRun>& runs, const std::string& folder) {
   FileRule rule;
   rule.reads("STUDY.toml", study.path);
-  for (const ParameterSet& set : study.sets) {
-    rule.reads("the scene", set.scene_path);
-    rule.reads("grains.file", set.scene.grains.file);
-  }
+  for (const ParameterSet& set : study.sets) rule.reads("the scene", set.scene_path);
+  for (const StudyRun& run : runs) rule.reads("grains.file", run.scene().grains.file);
   for (const char* table : {"study.csv", "runs.csv", "study.json"})
     rule.writes("a table of the study", (fs::path(folder) / table).string());
   for (const StudyRun& run : runs)

@@ -32,9 +32,26 @@ class ColumnMaker {
             faults_.add(text.line, "slope.stages", std::to_string(stage), "is not among the stages that are analysed");
       if (x && y) study_.slopes.push_back({text.name, std::move(*x), std::move(*y), text.stages});
     }
+    for (const CurveText& text : file_.curves) make_curve(text);
   }
 
  private:
+  void make_curve(const CurveText& text) {
+    check_name(text.name, "curve.name", text.line);
+    for (const SeriesCurve& c : study_.curves)
+      if (c.name == text.name) faults_.add(text.line, "curve.name", quoted_text(text.name), "given twice");
+    for (const ParameterSet& set : study_.sets) {
+      if (set.scene.output.series.empty())
+        faults_.add(text.line, "curve", quoted_text(text.name),
+                    "is of the time series, and output.series of row " + set.name + " asks for none");
+      if (text.stage >= set.scene.stages.size())
+        faults_.add(text.line, "curve.stage", std::to_string(text.stage),
+                    "row " + set.name + " has " + std::to_string(set.scene.stages.size()) + " stages, counted from 0");
+    }
+    auto x = read(text.x, "curve.x", text.line), y = read(text.y, "curve.y", text.line);
+    if (x && y) study_.curves.push_back({text.name, text.x, std::move(*x), std::move(*y), text.step, text.stage});
+  }
+
   void check_name(const std::string& name, const std::string& key, int line) {
     const auto allowed = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
     if (name.empty()) return;  // missing, told already
@@ -43,11 +60,15 @@ class ColumnMaker {
   }
 
   std::optional<Expression> expression(const std::string& text, const std::string& key, int line) {
+    auto of = read(text, key, line);
+    if (of)
+      for (const std::string& name : of->names()) check_column(name, key, line);
+    return of;
+  }
+  std::optional<Expression> read(const std::string& text, const std::string& key, int line) {
     if (text.empty()) return std::nullopt;  // missing, told already
     try {
-      Expression read(text);
-      for (const std::string& name : read.names()) check_column(name, key, line);
-      return read;
+      return Expression(text);
     } catch (const std::invalid_argument& error) {
       faults_.add(line, key, quoted_text(text), error.what());
       return std::nullopt;

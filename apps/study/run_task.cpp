@@ -47,7 +47,7 @@ class Teller {
 };
 
 RunRecord make_state(const StudyRun& run, bool tell_progress) {
-  const SampleJob job{run.set->scene, run.seed, run.state(), run.series(), run.command(), 1, 0, true};
+  const SampleJob job{run.scene(), run.seed, run.state(), run.series(), run.command(), 1, 0, true};
   double spent = 0;  // [s] in the parts before an interruption
   if (std::filesystem::exists(partial_name(job.output)))
     if (const auto before = read_record(run.record())) spent = before->cpu_seconds.value_or(0);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <string_view>
 
 #include "apps/study/derived_columns.hpp"
 #include "apps/study/parameter_sets.hpp"
@@ -21,6 +22,19 @@ std::string unquoted(std::string text) {
   return text.size() >= 2 && text.front() == '"' ? text.substr(1, text.size() - 2) : text;
 }
 
+std::string four_digits(std::uint64_t seed) {
+  char number[32];
+  std::snprintf(number, sizeof number, "%04llu", static_cast<unsigned long long>(seed));
+  return number;
+}
+
+std::string with_seed(std::string text, std::uint64_t seed) {
+  constexpr std::string_view kSeed = "{seed}";
+  for (std::size_t at = 0; (at = text.find(kSeed, at)) != std::string::npos;)
+    text.replace(at, kSeed.size(), four_digits(seed));
+  return text;
+}
+
 }  // namespace
 
 Study read_study(const std::string& path) {
@@ -35,6 +49,12 @@ Study read_study(const std::string& path) {
   return study;
 }
 
+Scene StudyRun::scene() const {
+  Scene own = set->scene;
+  own.grains.file = with_seed(own.grains.file, seed);
+  return own;
+}
+
 std::string StudyRun::state(std::optional<std::size_t> stage) const {
   return stage && *stage + 1 == set->scene.stages.size() ? state() : base + stage_suffix(stage) + ".h5";
 }
@@ -45,18 +65,16 @@ std::string StudyRun::report(std::optional<std::size_t> stage) const {
 
 std::string StudyRun::command() const {
   std::string text = "pack " + set->scene_path;
-  for (const auto& [key, value] : set->settings) text += " --set " + key + "=" + value;
+  for (const auto& [key, value] : set->settings)
+    text += " --set " + key + "=" + (key == "grains.file" ? with_seed(value, seed) : value);
   return text;
 }
 
 std::vector<StudyRun> runs_of(const Study& study, const std::string& directory) {
   std::vector<StudyRun> runs;
   for (const ParameterSet& set : study.sets)
-    for (const std::uint64_t seed : set.seeds) {
-      char number[32];
-      std::snprintf(number, sizeof number, ".%04llu", static_cast<unsigned long long>(seed));
-      runs.push_back({&set, seed, (std::filesystem::path(directory) / (set.name + number)).string()});
-    }
+    for (const std::uint64_t seed : set.seeds)
+      runs.push_back({&set, seed, (std::filesystem::path(directory) / (set.name + "." + four_digits(seed))).string()});
   return runs;
 }
 

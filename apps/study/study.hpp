@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/input.hpp"
+#include "apps/study/curves.hpp"
 #include "apps/study/derived.hpp"
 #include "dem/scene/scene.hpp"
 
@@ -35,6 +36,7 @@ struct Study {
   StudyAnalysis analysis;
   std::vector<DerivedColumn> derived;
   std::vector<PathSlope> slopes;
+  std::vector<SeriesCurve> curves;
 };
 
 // Throws one InputError with every fault: of the study's own keys, and of the scenes that its settings make.
@@ -46,6 +48,8 @@ struct StudyRun {
   std::uint64_t seed = 0;
   std::string base;  // DIR/NAME.SEED
 
+  // {seed} in the name of grains.file is the number of the sample, as in the names of its files.
+  Scene scene() const;
   std::string state() const { return base + ".h5"; }
   std::string record() const { return base + ".run.json"; }
   std::string series() const { return set->scene.output.series.empty() ? "" : base + ".series.csv"; }

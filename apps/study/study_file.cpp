@@ -1,4 +1,5 @@
-// The study's TOML file: rows, grid and seeds, with every fault of its own keys.
+// The study's TOML file: rows, grid and seeds, with every fault of its own keys. All of it here, for toml++ takes long
+// to compile and stays out of headers.
 #include "apps/study/study_file.hpp"
 
 #include <toml++/toml.h>
@@ -6,8 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
+#include <optional>
 #include <sstream>
 
 #include "analysis/report.hpp"
@@ -20,7 +24,32 @@
 namespace isostat {
 namespace {
 
-std::string literal(const toml::node& node) {
+// Keys as TOML has them: values of a kind, and the faults of those that are of another.
+class TomlKeys {
+ public:
+  explicit TomlKeys(StudyFaults& faults) : faults_(faults) {}
+
+ protected:
+  static int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
+  static std::string literal(const toml::node& node);
+  static bool is_all(const toml::node& node) { return node.value<std::string>() == "all"; }
+
+  void fault(int line, const std::string& key, const std::string& value, const std::string& rule) {
+    faults_.add(line, key, value, rule);
+  }
+  void unknown(int line, const std::string& key, const std::vector<std::string>& known);
+
+  // What is of another kind is a fault, and comes back empty (positive: NaN).
+  std::string text_of(const toml::node& node, const std::string& key);
+  std::vector<std::size_t> stages_of(const toml::node& node, const std::string& key);
+  double positive(const toml::node& node, const std::string& key, const std::string& unit);
+  template <class Integer>
+  std::vector<Integer> distinct_integers(const toml::node& node, const std::string& key, const std::string& rule);
+
+  StudyFaults& faults_;
+};
+
+std::string TomlKeys::literal(const toml::node& node) {
   if (const auto* real = node.as_floating_point()) return real_text(real->get());
   if (const auto* text = node.as_string()) return quoted_text(text->get());
   if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
@@ -34,150 +63,55 @@ std::string literal(const toml::node& node) {
   return out.str();
 }
 
-class StudyParser {
+void TomlKeys::unknown(int line, const std::string& key, const std::vector<std::string>& known) {
+  std::vector<std::string> names = known;
+  for (const SceneKey& k : scene_keys()) names.push_back(full_name(k, 0));
+  const std::string hint = did_you_mean(key, names);
+  fault(line, key, "", "unknown key; " + (hint.empty() ? "docs/study.md lists all keys" : hint));
+}
+
+std::string TomlKeys::text_of(const toml::node& node, const std::string& key) {
+  if (const auto* text = node.as_string(); text && !text->get().empty()) return text->get();
+  fault(line_of(node), key, literal(node), "a text that is not empty");
+  return "";
+}
+
+template <class Integer>
+std::vector<Integer> TomlKeys::distinct_integers(const toml::node& node, const std::string& key,
+                                                 const std::string& rule) {
+  std::vector<Integer> list;
+  const auto* array = node.as_array();
+  for (std::size_t k = 0; array && k < array->size(); ++k) {
+    const auto* value = array->get(k)->as_integer();
+    if (!value || value->get() < 0 ||
+        std::find(list.begin(), list.end(), static_cast<Integer>(value->get())) != list.end()) {
+      list.clear();
+      break;
+    }
+    list.push_back(static_cast<Integer>(value->get()));
+  }
+  if (list.empty()) fault(line_of(node), key, literal(node), rule);
+  return list;
+}
+
+std::vector<std::size_t> TomlKeys::stages_of(const toml::node& node, const std::string& key) {
+  if (const auto* one = node.as_integer(); one && one->get() >= 0) return {static_cast<std::size_t>(one->get())};
+  return distinct_integers<std::size_t>(node, key, "a stage, a list of different stages, counted from 0, or \"all\"");
+}
+
+double TomlKeys::positive(const toml::node& node, const std::string& key, const std::string& unit) {
+  const auto number = node.value<double>();
+  if (number && *number > 0 && std::isfinite(*number)) return *number;
+  fault(line_of(node), key, literal(node), "a real > 0" + (unit.empty() ? "" : " " + unit));
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+// [analysis]: the options of `isostat analyze`.
+class AnalysisKeys : TomlKeys {
  public:
-  explicit StudyParser(StudyFaults& faults) : faults_(faults) {}
+  using TomlKeys::TomlKeys;
 
-  StudyFile read() {
-    const std::string text = read_whole_file(faults_.path());
-    refuse_deep_keys(text, faults_.path());
-    try {
-      table_ = toml::parse(text, std::string_view(faults_.path()));
-    } catch (const toml::parse_error& error) {
-      throw InputError(faults_.path(), static_cast<int>(error.source().begin.line), "", "",
-                       "not valid TOML: " + std::string(error.description()));
-    }
-    read_top();
-    read_rows();
-    read_grid();
-    read_derived();
-    read_slopes();
-    return std::move(file_);
-  }
-
- private:
-  void fault(int line, const std::string& key, const std::string& value, const std::string& rule) {
-    faults_.add(line, key, value, rule);
-  }
-  static int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
-
-  void unknown(int line, const std::string& key, const std::vector<std::string>& known) {
-    std::vector<std::string> names = known;
-    for (const SceneKey& k : scene_keys()) names.push_back(full_name(k, 0));
-    const std::string hint = did_you_mean(key, names);
-    fault(line, key, "", "unknown key; " + (hint.empty() ? "docs/study.md lists all keys" : hint));
-  }
-
-  // --- the keys of the study itself ---
-
-  void read_top() {
-    const std::vector<std::string> known{"scene", "seeds", "stages", "analyze", "analysis",
-                                         "set",   "row",   "grid",   "derived", "slope"};
-    std::vector<std::string> sections{"counts"};
-    for (const auto& [name, node] : table_) {
-      const std::string key(name.str());
-      if (key == "scene") {
-        scene_ = text_of(node, key);
-      } else if (key == "seeds") {
-        seeds_ = seeds_of(node, key);
-      } else if (key == "stages") {
-        all_stages_ = is_all(node);
-        if (!all_stages_) stages_ = stages_of(node, key);
-      } else if (key == "analyze") {
-        sections = sections_of(node, key);
-      } else if (key == "analysis") {
-        read_options(node, file_.analysis.options);
-      } else if (key == "set") {
-        read_settings(node, key, set_);
-      } else if (key != "row" && key != "grid" && key != "derived" && key != "slope") {
-        unknown(line_of(node), key, known);
-      }
-    }
-    file_.analysis.sections = sections;
-  }
-
-  std::string text_of(const toml::node& node, const std::string& key) {
-    if (const auto* text = node.as_string(); text && !text->get().empty()) return text->get();
-    fault(line_of(node), key, literal(node), "a text that is not empty");
-    return "";
-  }
-
-  template <class Integer>
-  std::vector<Integer> distinct_integers(const toml::node& node, const std::string& key, const std::string& rule) {
-    std::vector<Integer> list;
-    const auto* array = node.as_array();
-    for (std::size_t k = 0; array && k < array->size(); ++k) {
-      const auto* value = array->get(k)->as_integer();
-      if (!value || value->get() < 0 ||
-          std::find(list.begin(), list.end(), static_cast<Integer>(value->get())) != list.end()) {
-        list.clear();
-        break;
-      }
-      list.push_back(static_cast<Integer>(value->get()));
-    }
-    if (list.empty()) fault(line_of(node), key, literal(node), rule);
-    return list;
-  }
-
-  std::vector<std::uint64_t> seeds_of(const toml::node& node, const std::string& key) {
-    const std::string rule = "a number of samples (seeds 1, 2, ...) or a list of different seeds >= 0";
-    const auto* count = node.as_integer();
-    if (!count) return distinct_integers<std::uint64_t>(node, key, rule);
-    std::vector<std::uint64_t> seeds;
-    if (count->get() < 1 || count->get() > static_cast<std::int64_t>(kMostRuns))
-      fault(line_of(node), key, literal(node), rule);
-    else
-      for (std::int64_t k = 1; k <= count->get(); ++k) seeds.push_back(static_cast<std::uint64_t>(k));
-    return seeds;
-  }
-
-  std::vector<std::size_t> stages_of(const toml::node& node, const std::string& key) {
-    if (const auto* one = node.as_integer(); one && one->get() >= 0) return {static_cast<std::size_t>(one->get())};
-    return distinct_integers<std::size_t>(node, key, "a stage, a list of different stages, counted from 0, or \"all\"");
-  }
-  static bool is_all(const toml::node& node) { return node.value<std::string>() == "all"; }
-
-  std::vector<std::string> sections_of(const toml::node& node, const std::string& key) {
-    std::vector<std::string> names, known;
-    for (const Section& s : sections()) known.emplace_back(s.name);
-    const auto* array = node.as_array();
-    if (!array || array->empty()) fault(line_of(node), key, literal(node), "a list of sections of `isostat analyze`");
-    for (std::size_t k = 0; array && k < array->size(); ++k) {
-      const auto* text = array->get(k)->as_string();
-      const std::string name = text ? text->get() : literal(*array->get(k));
-      const std::string hint = did_you_mean(name, known);
-      std::string all;
-      for (const std::string& s : known) all += (all.empty() ? "" : ", ") + s;
-      if (std::find(known.begin(), known.end(), name) == known.end())
-        fault(line_of(*array->get(k)), key, quoted_text(name),
-              "no section; " + (hint.empty() ? "sections are " + all : hint));
-      else if (std::find(names.begin(), names.end(), name) == names.end())
-        names.push_back(name);
-    }
-    return names;
-  }
-
-  // [LOW, HIGH] with 0 <= LOW < HIGH, LOW > 0 where 0 is no end.
-  AnalysisOptions::Window window_of(const toml::node& node, const std::string& key, bool from_zero) {
-    const auto* array = node.as_array();
-    std::vector<double> ends;
-    for (std::size_t k = 0; array && k < array->size(); ++k)
-      if (const auto end = array->get(k)->value<double>()) ends.push_back(*end);
-    if (array && array->size() == 2 && ends.size() == 2 && (from_zero ? ends[0] >= 0 : ends[0] > 0) &&
-        ends[0] < ends[1] && std::isfinite(ends[1]))
-      return std::array{ends[0], ends[1]};
-    fault(line_of(node), key, literal(node),
-          from_zero ? "is [LOW, HIGH] with 0 <= LOW < HIGH" : "is [LOW, HIGH] with 0 < LOW < HIGH");
-    return std::nullopt;
-  }
-  std::optional<double> positive(const toml::node& node, const std::string& key, const char* unit) {
-    const auto number = node.value<double>();
-    if (number && *number > 0 && std::isfinite(*number)) return number;
-    fault(line_of(node), key, literal(node), std::string("a real > 0 ") + unit);
-    return std::nullopt;
-  }
-
-  void read_options(const toml::node& node, AnalysisOptions& options) {
+  void read(const toml::node& node, AnalysisOptions& options) {
     const toml::table* table = node.as_table();
     if (!table) return fault(line_of(node), "analysis", literal(node), "is a table: write [analysis]");
     for (const auto& [name, value] : *table) {
@@ -195,7 +129,7 @@ class StudyParser {
         options.gap_tolerance = number;
         if (!number || !(*number >= 0)) fault(line_of(value), key, literal(value), "a real >= 0 [a]");
       } else if (leaf == "k_max") {
-        options.k_max = positive(value, key, "[1/a]").value_or(0);
+        options.k_max = positive(value, key, "[1/a]");
       } else if (leaf == "k_window") {
         options.k_window = window_of(value, key, true);
       } else if (leaf == "r_window") {
@@ -225,6 +159,191 @@ class StudyParser {
         unknown(line_of(value), key, known);
       }
     }
+  }
+
+ private:
+  // [LOW, HIGH] with 0 <= LOW < HIGH, LOW > 0 where 0 is no end.
+  AnalysisOptions::Window window_of(const toml::node& node, const std::string& key, bool from_zero) {
+    const auto* array = node.as_array();
+    std::vector<double> ends;
+    for (std::size_t k = 0; array && k < array->size(); ++k)
+      if (const auto end = array->get(k)->value<double>()) ends.push_back(*end);
+    if (array && array->size() == 2 && ends.size() == 2 && (from_zero ? ends[0] >= 0 : ends[0] > 0) &&
+        ends[0] < ends[1] && std::isfinite(ends[1]))
+      return std::array{ends[0], ends[1]};
+    fault(line_of(node), key, literal(node),
+          from_zero ? "is [LOW, HIGH] with 0 <= LOW < HIGH" : "is [LOW, HIGH] with 0 < LOW < HIGH");
+    return std::nullopt;
+  }
+};
+
+// [derived], [[slope]] and [[curve]]: what is computed from the numbers and series of the samples.
+class ComputedKeys : TomlKeys {
+ public:
+  ComputedKeys(const toml::table& top, StudyFile& file, StudyFaults& faults)
+      : TomlKeys(faults), top_(top), file_(file) {}
+
+  void read() {
+    read_derived();
+    read_slopes();
+    read_curves();
+  }
+
+ private:
+  void read_derived() {
+    const toml::node* node = top_.get("derived");
+    if (!node) return;
+    const toml::table* table = node->as_table();
+    if (!table) return fault(line_of(*node), "derived", literal(*node), "is a table: write [derived]");
+    for (const auto& [name, value] : *table)
+      file_.derived.push_back(
+          {std::string(name.str()), text_of(value, "derived." + std::string(name.str())), line_of(value)});
+    std::sort(file_.derived.begin(), file_.derived.end(),
+              [](const DerivedText& a, const DerivedText& b) { return a.line < b.line; });
+  }
+
+  void read_slopes() {
+    for (const toml::table* table : tables("slope", {"name", "x", "y", "stages"})) {
+      SlopeText slope;
+      slope.line = line_of(*table);
+      for (const auto& [name, value] : *table) {
+        const std::string leaf(name.str()), key = "slope." + leaf;
+        if (leaf == "stages")
+          slope.stages = stages_of(value, key);
+        else if (leaf == "name" || leaf == "x" || leaf == "y")
+          (leaf == "name" ? slope.name : leaf == "x" ? slope.x : slope.y) = text_of(value, key);
+      }
+      file_.slopes.push_back(std::move(slope));
+    }
+  }
+
+  void read_curves() {
+    for (const toml::table* table : tables("curve", {"name", "x", "y", "step", "stage"})) {
+      CurveText curve;
+      curve.line = line_of(*table);
+      for (const auto& [name, value] : *table) {
+        const std::string leaf(name.str()), key = "curve." + leaf;
+        const auto number = value.value<std::int64_t>();
+        if (leaf == "step")
+          curve.step = positive(value, key, "in the unit of x");
+        else if (leaf == "stage" && value.is_integer() && *number >= 0)
+          curve.stage = static_cast<std::size_t>(*number);
+        else if (leaf == "stage")
+          fault(line_of(value), key, literal(value), "a stage, counted from 0");
+        else if (leaf == "name" || leaf == "x" || leaf == "y")
+          (leaf == "name" ? curve.name : leaf == "x" ? curve.x : curve.y) = text_of(value, key);
+      }
+      file_.curves.push_back(std::move(curve));
+    }
+  }
+
+  // Those of an array of tables whose keys are these, each of them there.
+  std::vector<const toml::table*> tables(const std::string& name, const std::vector<std::string>& keys) {
+    std::vector<const toml::table*> all;
+    const toml::node* node = top_.get(name);
+    if (!node) return all;
+    const toml::array* array = node->as_array();
+    if (!array || array->empty() || !array->is_array_of_tables()) {
+      fault(line_of(*node), name, "", name + "s are an array of tables: write [[" + name + "]]");
+      return all;
+    }
+    std::vector<std::string> known;
+    for (const std::string& key : keys) known.push_back(name + "." + key);
+    for (std::size_t k = 0; k < array->size(); ++k) {
+      const toml::table& table = *array->get_as<toml::table>(k);
+      for (const auto& [leaf, value] : table)
+        if (std::find(keys.begin(), keys.end(), leaf.str()) == keys.end())
+          unknown(line_of(value), name + "." + std::string(leaf.str()), known);
+      for (std::size_t i = 0; i < keys.size(); ++i)
+        if (!table.contains(keys[i])) fault(line_of(table), known[i], "", "missing");
+      all.push_back(&table);
+    }
+    return all;
+  }
+
+  const toml::table& top_;
+  StudyFile& file_;
+};
+
+class StudyParser : TomlKeys {
+ public:
+  using TomlKeys::TomlKeys;
+
+  StudyFile read() {
+    const std::string text = read_whole_file(faults_.path());
+    refuse_deep_keys(text, faults_.path());
+    try {
+      table_ = toml::parse(text, std::string_view(faults_.path()));
+    } catch (const toml::parse_error& error) {
+      throw InputError(faults_.path(), static_cast<int>(error.source().begin.line), "", "",
+                       "not valid TOML: " + std::string(error.description()));
+    }
+    read_top();
+    read_rows();
+    read_grid();
+    ComputedKeys(table_, file_, faults_).read();
+    return std::move(file_);
+  }
+
+ private:
+  // --- the keys of the study itself ---
+
+  void read_top() {
+    const std::vector<std::string> known{"scene", "seeds", "stages",  "analyze", "analysis", "set",
+                                         "row",   "grid",  "derived", "slope",   "curve"};
+    std::vector<std::string> sections{"counts"};
+    for (const auto& [name, node] : table_) {
+      const std::string key(name.str());
+      if (key == "scene") {
+        scene_ = text_of(node, key);
+      } else if (key == "seeds") {
+        seeds_ = seeds_of(node, key);
+      } else if (key == "stages") {
+        all_stages_ = is_all(node);
+        if (!all_stages_) stages_ = stages_of(node, key);
+      } else if (key == "analyze") {
+        sections = sections_of(node, key);
+      } else if (key == "analysis") {
+        AnalysisKeys(faults_).read(node, file_.analysis.options);
+      } else if (key == "set") {
+        read_settings(node, key, set_);
+      } else if (key != "row" && key != "grid" && key != "derived" && key != "slope" && key != "curve") {
+        unknown(line_of(node), key, known);
+      }
+    }
+    file_.analysis.sections = sections;
+  }
+
+  std::vector<std::uint64_t> seeds_of(const toml::node& node, const std::string& key) {
+    const std::string rule = "a number of samples (seeds 1, 2, ...) or a list of different seeds >= 0";
+    const auto* count = node.as_integer();
+    if (!count) return distinct_integers<std::uint64_t>(node, key, rule);
+    std::vector<std::uint64_t> seeds;
+    if (count->get() < 1 || count->get() > static_cast<std::int64_t>(kMostRuns))
+      fault(line_of(node), key, literal(node), rule);
+    else
+      for (std::int64_t k = 1; k <= count->get(); ++k) seeds.push_back(static_cast<std::uint64_t>(k));
+    return seeds;
+  }
+
+  std::vector<std::string> sections_of(const toml::node& node, const std::string& key) {
+    std::vector<std::string> names, known;
+    for (const Section& s : sections()) known.emplace_back(s.name);
+    const auto* array = node.as_array();
+    if (!array || array->empty()) fault(line_of(node), key, literal(node), "a list of sections of `isostat analyze`");
+    for (std::size_t k = 0; array && k < array->size(); ++k) {
+      const auto* text = array->get(k)->as_string();
+      const std::string name = text ? text->get() : literal(*array->get(k));
+      const std::string hint = did_you_mean(name, known);
+      std::string all;
+      for (const std::string& s : known) all += (all.empty() ? "" : ", ") + s;
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        fault(line_of(*array->get(k)), key, quoted_text(name),
+              "no section; " + (hint.empty() ? "sections are " + all : hint));
+      else if (std::find(names.begin(), names.end(), name) == names.end())
+        names.push_back(name);
+    }
+    return names;
   }
 
   // --- settings of scene keys ---
@@ -329,46 +448,6 @@ class StudyParser {
     });
   }
 
-  // --- what is computed from the numbers of the samples ---
-
-  void read_derived() {
-    const toml::node* node = table_.get("derived");
-    if (!node) return;
-    const toml::table* table = node->as_table();
-    if (!table) return fault(line_of(*node), "derived", literal(*node), "is a table: write [derived]");
-    for (const auto& [name, value] : *table)
-      file_.derived.push_back(
-          {std::string(name.str()), text_of(value, "derived." + std::string(name.str())), line_of(value)});
-    std::sort(file_.derived.begin(), file_.derived.end(),
-              [](const DerivedText& a, const DerivedText& b) { return a.line < b.line; });
-  }
-
-  void read_slopes() {
-    const toml::node* node = table_.get("slope");
-    if (!node) return;
-    const toml::array* array = node->as_array();
-    if (!array || array->empty() || !array->is_array_of_tables())
-      return fault(line_of(*node), "slope", "", "slopes are an array of tables: write [[slope]]");
-    for (std::size_t k = 0; k < array->size(); ++k) {
-      const toml::table& table = *array->get_as<toml::table>(k);
-      SlopeText slope;
-      slope.line = line_of(table);
-      for (const auto& [name, value] : table) {
-        const std::string leaf(name.str()), key = "slope." + leaf;
-        if (leaf == "stages")
-          slope.stages = stages_of(value, key);
-        else if (leaf == "name" || leaf == "x" || leaf == "y")
-          (leaf == "name" ? slope.name : leaf == "x" ? slope.x : slope.y) = text_of(value, key);
-        else
-          unknown(line_of(value), key, {"slope.name", "slope.x", "slope.y", "slope.stages"});
-      }
-      for (const char* leaf : {"name", "x", "y", "stages"})
-        if (!table.contains(leaf)) fault(slope.line, std::string("slope.") + leaf, "", "missing");
-      file_.slopes.push_back(std::move(slope));
-    }
-  }
-
-  StudyFaults& faults_;
   StudyFile file_;
   toml::table table_;
   // What holds for every row that does not say otherwise.

@@ -43,12 +43,20 @@ struct SlopeText {
   int line = 0;
 };
 
+struct CurveText {
+  std::string name, x, y;
+  double step = 0;
+  std::size_t stage = 0;
+  int line = 0;
+};
+
 struct StudyFile {
   std::vector<StudyRow> rows;
   std::vector<GridAxis> grid;
   StudyAnalysis analysis;
   std::vector<DerivedText> derived;  // in the order of the file
   std::vector<SlopeText> slopes;
+  std::vector<CurveText> curves;
 };
 
 // Reads faults.path(); adds what is wrong with its keys to the faults. Throws InputError if it is no TOML.

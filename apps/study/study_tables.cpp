@@ -11,6 +11,7 @@
 #include "analysis/report_text.hpp"
 #include "analysis/version.hpp"
 #include "apps/json_output.hpp"
+#include "apps/study/curve_tables.hpp"
 #include "apps/study/state_report.hpp"
 #include "dem/scene/keys.hpp"
 #include "dem/scene/text.hpp"
@@ -238,6 +239,7 @@ TableFiles study_tables(const Study& study, const std::vector<StudyRun>& runs, c
   };
   add("study.csv", study_csv(study, ensembles));
   if (!study.slopes.empty()) add("slopes.csv", slopes_csv(study, ensembles));
+  for (auto& [name, text] : curve_tables(study, runs, records)) add(name.c_str(), std::move(text));
   add("runs.csv", runs_csv(json["runs"]));
   add("study.json", json_text(json, 1));
   return tables;

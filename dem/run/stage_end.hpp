@@ -74,19 +74,23 @@ class StageEnd {
   std::optional<std::string> spoilt() const { return outflow_.spoilt(); }
 
   // At a look. What a shock adds for the time of a vibration is no strength, and what a vibration takes away for as
-  // long is no loss: the stress is a mean over kPersistence.
+  // long is no loss; nor is a slip after which the packing carries on. So the stress is a mean over the time of the one
+  // and a part of the test for the other.
   void follow_peak() {
     if (stage_.until != Until::failure) return;
     StageProgress<System::dimension>& p = s_.progress;
-    const double since = s_.time - p.carried_at, memory = kPersistence * inertial_time(s_, acting_pressure(s_));
+    const double since = s_.time - p.carried_at;
+    const double memory =
+        std::max(kPersistence * inertial_time(s_, acting_pressure(s_)), kPersistentPart * (s_.time - p.start_time));
     p.carried_stress += since / (memory + since) * (carried() - p.carried_stress);
     p.carried_at = s_.time;
     p.peak_stress = std::max(p.peak_stress, p.carried_stress);
   }
 
  private:
-  static constexpr double kFailureNoise = 1e-3;  // [F1/a] a peak below is none
-  static constexpr double kPersistence = 10;     // [sqrt(m a / F1)] about a period of the softest chains
+  static constexpr double kFailureNoise = 1e-3;    // [F1/a] a peak below is none
+  static constexpr double kPersistence = 10;       // [sqrt(m a / F1)] about a period of the softest chains
+  static constexpr double kPersistentPart = 0.05;  // [-] of the time since the stage began, at a rate: of its strain
 
   bool at_rest() const { return !still_loading(s_, stage_) && s_.certificate.equilibrated && !s_.progress.drifting; }
   // Of the driven directions, the largest.

@@ -477,5 +477,126 @@ colour = 1
   EXPECT_FALSE(exists("out/study.csv"));
 }
 
+TEST_F(Study, CurvesOverTheSeriesAndTheirPeaks) {
+  write("path.toml", quick_scene(20) + R"toml([[stage]]
+strain_rate_1 = 0.05
+stress_2 = 0.1
+until = "strain"
+strain = 0.03
+)toml");
+  write("study.toml", R"toml(scene = "path.toml"
+seeds = 3
+[set]
+output.series = "s.csv"
+output.series_interval = 0.01
+[grid]
+law.friction = [0.0, 0.5]
+[[curve]]
+name = "deviator"
+x = "strain1"
+y = "(sigma11 - sigma22) / 2"
+step = 0.005
+stage = 1
+)toml");
+  const Outcome o = run(study("out"));
+  ASSERT_EQ(o.code, 0) << o.err;
+  const DataTable curve = table("out/curve.deviator.csv"), peaks = table("out/peaks.csv");
+  // Bin by bin from the series themselves.
+  std::size_t row = 0;
+  ASSERT_EQ(peaks.rows(), 2u);
+  for (const std::string set : {"path-friction=0.0", "path-friction=0.5"}) {
+    std::vector<std::map<int, std::pair<double, int>>> samples(3);
+    std::vector<double> highest(3, -INFINITY);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const DataTable s = table("out/" + set + ".000" + std::to_string(k + 1) + ".series.csv");
+      for (std::size_t r = 0; r < s.rows(); ++r) {
+        if (at(s, "stage", r) != 1) continue;
+        auto& [sum, n] = samples[k][static_cast<int>(std::floor(at(s, "strain1", r) / 0.005))];
+        sum += (at(s, "sigma11", r) - at(s, "sigma22", r)) / 2, ++n;
+      }
+      for (const auto& [bin, sum] : samples[k]) highest[k] = std::max(highest[k], sum.first / sum.second);
+    }
+    for (const auto& [bin, first] : samples[0]) {
+      if (!samples[1].contains(bin) || !samples[2].contains(bin)) continue;
+      double mean = 0, squares = 0;
+      for (auto& sample : samples) mean += sample[bin].first / sample[bin].second / 3;
+      for (auto& sample : samples) squares += std::pow(sample[bin].first / sample[bin].second - mean, 2);
+      ASSERT_LT(row, curve.rows());
+      EXPECT_EQ(curve.find("row")->text[row], set);
+      EXPECT_NEAR(at(curve, "strain1", row), 0.005 * (bin + 0.5), 1e-12);
+      EXPECT_NEAR(at(curve, "deviator", row), mean, 1e-12 * std::abs(mean));
+      EXPECT_NEAR(at(curve, "deviator_se", row), std::sqrt(squares / 6), 1e-9 * std::abs(mean));
+      ++row;
+    }
+    const std::size_t line = set == "path-friction=0.0" ? 0 : 1;
+    EXPECT_EQ(peaks.find("curve")->text[line], "deviator");
+    EXPECT_NEAR(at(peaks, "peak", line), (highest[0] + highest[1] + highest[2]) / 3, 1e-12);
+  }
+  EXPECT_EQ(row, curve.rows());
+  EXPECT_GE(row, 12u);
+  const Outcome plot = run("plot " + in_folder("out/curve.deviator.csv") + " -o " + in_folder("c.svg") +
+                           " --what study --x strain1 --y deviator");
+  EXPECT_EQ(plot.code, 0) << plot.err;
+  EXPECT_THAT(text("c.svg"), HasSubstr("friction"));
+}
+
+TEST_F(Study, GrainsOfEachSampleFromTheStatesOfAnotherStudy) {
+  write("study.toml", "scene = \"scene.toml\"\nseeds = 2\n");
+  ASSERT_EQ(run(study("first")).code, 0);
+  write("study.toml",
+        "scene = \"scene.toml\"\nseeds = 2\nanalyze = [\"counts\"]\n[set]\nstage.0.pressure = 0.2\n"
+        "grains.file = \"" +
+            in_folder("first/scene.{seed}.h5") + "\"\n");
+  const Outcome o = run(study("second"));
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_THAT(text("second/study.csv"), HasSubstr("scene.{seed}.h5"));
+  for (int seed = 1; seed <= 2; ++seed) {
+    const std::string name = "scene.000" + std::to_string(seed) + ".h5";
+    const Outcome one =
+        run("pack " + in_folder("scene.toml") + " --seed " + std::to_string(seed) + " --set 'grains.file=\"" +
+            in_folder("first/" + name) + "\"' --set stage.0.pressure=0.2 -o " + in_folder("one.h5") + " --force");
+    ASSERT_EQ(one.code, 0) << one.err;
+    EXPECT_TRUE(text("one.h5") == text("second/" + name)) << seed;
+  }
+  const auto before = files("second");
+  ASSERT_EQ(run(study("second")).code, 0);  // nothing is run again
+  for (const auto& [name, file] : files("second")) {
+    if (name.ends_with(".h5")) {
+      EXPECT_EQ(file, before.at(name)) << name;
+    }
+  }
+}
+
+TEST_F(Study, FaultsOfCurves) {
+  write("study.toml", R"toml(scene = "scene.toml"
+seeds = 1
+[[curve]]
+name = "a"
+x = "strain1 +"
+y = "sigma11"
+step = 0.0
+stage = 4
+)toml");
+  const Outcome o = run(study("out"));
+  EXPECT_EQ(o.code, 2);
+  for (const char* fault : {"curve.x", "curve.step", "a real > 0 in the unit of x", "curve.stage", "output.series"})
+    EXPECT_THAT(o.err, HasSubstr(fault));
+  write("study.toml", R"toml(scene = "scene.toml"
+seeds = 1
+[set]
+output.series = "s.csv"
+[[curve]]
+name = "a"
+x = "strain1"
+y = "sigma_11"
+step = 0.1
+stage = 0
+)toml");
+  const Outcome unknown = run(study("out"));
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("sigma_11"));
+  EXPECT_THAT(unknown.err, HasSubstr("no such column"));
+}
+
 }  // namespace
 }  // namespace isostat

@@ -2,7 +2,7 @@
 """Which readings of the paper's open process numbers fit best: chi^2 of Tables II to V of Gilabert 2007 against the mass of
 the cell, the cap on the speed of its edges, the reading of V0 and, in series B, how the contacts are stiffened.
 
-    isostat study data/studies/NAME.toml -o out/NAME        for NAME in method1 readings-method1 aggregation readings
+    isostat study data/studies/NAME.toml -o out/NAME        for NAME in method1 readings-method1 aggregation readings readings-loads
     tests/bench/paper_readings.py out docs/measured/results
 
 writes readings.csv (every mean with its error and gap, by reading), readings_chi2.csv (a table and reading) and
@@ -44,13 +44,21 @@ def method1(*folders):
 
 READINGS = {  # suffix of a row of readings.toml: mass, cap, V0, stiffening of B; aggregation.toml has the first
     "": (1.0, "0.05", "component", FAST),
-    "-mass=2": (2.0, "0.05", "component", FAST),
-    "-no-cap": (1.0, NO_CAP, "component", FAST),
-    "-mass=2-no-cap": (2.0, NO_CAP, "component", FAST),
     "-vector": (1.0, "0.05", "vector", FAST),
     "-slow": (1.0, "0.05", "component", SLOW),
     "-vector-slow": (1.0, "0.05", "vector", SLOW),
 }
+
+
+def loads(folder):
+    """The grid of masses and caps (readings-loads.toml): Table V of the component's aggregates."""
+    found = {}
+    for row in names(folder) if (folder / "runs.csv").exists() else []:
+        m = re.fullmatch(r"([AB])(-RR)?-inertia=([\d.]+)-max_edge_speed=([\d.e+]+)", row)
+        cap = NO_CAP if float(m[4]) > 1 else f"{float(m[4]):g}"
+        found[("V", m[1] + (" RR" if m[2] else ""), float(m[3]), cap, "component", FAST if m[1] == "B" else "-")] = [
+            (folder, row, "")]
+    return found
 
 
 def method2(tables, others):
@@ -71,7 +79,7 @@ def method2(tables, others):
 def joint(sums):
     """Chi^2 of all tables against mass, cap and reading of V0. The mass acts where the cell moves (II, III, V), the cap in
     V, the reading of V0 in IV, whose B of the vector is the one stiffened slowly, for it fits better."""
-    lines = [["mass", "edge_speed", "V0_of", "numbers", "chi2", "II", "III", "IV", "V_A", "V_B"]]
+    lines = [["row", "mass", "edge_speed", "V0_of", "runs", "numbers", "chi2", "II", "III", "IV", "V_A", "V_B"]]
     for mass, cap in sorted({k[1:3] for k in sums if k[0] == "V, B"}):
         for velocity in ("component", "vector"):
             b = {"component": FAST, "vector": SLOW}[velocity]
@@ -83,8 +91,9 @@ def joint(sums):
             found = {name: [sums[k] for k in keys if k in sums] for name, keys in parts.items()}
             if all(len(found[name]) == len(keys) for name, keys in parts.items()):
                 chi2 = {name: sum(part[0] for part in group) for name, group in found.items()}
-                numbers = sum(part[2] for group in found.values() for part in group)
-                lines.append([str(mass), cap, velocity, str(numbers), f"{sum(chi2.values()):.0f}",
+                numbers, runs = (sum(part[k] for group in found.values() for part in group) for k in (2, 3))
+                lines.append([f"{mass:g} {cap} {velocity}", str(mass), cap, velocity, str(runs), str(numbers),
+                              f"{sum(chi2.values()):.0f}",
                               *(f"{chi2[name]:.0f}" for name in parts)])
     return lines
 
@@ -96,6 +105,7 @@ def main():
               "paper_error", "gap"]]
     sums = {}
     for key, sources in {**method1(out / "method1", out / "readings-method1"),
+                         **loads(out / "readings-loads"),
                          **method2(out / "aggregation", out / "readings")}.items():
         for quantity in ("Phi", "z", "mean_radius_weighted"):
             name, case, *reading = key
@@ -112,13 +122,14 @@ def main():
             if (name, quantity) == ("IV", "Phi") or quantity == "mean_radius_weighted" or (name, case, quantity) == MISPRINT:
                 continue  # the start's, no fit; of another definition (measured/paper.md)
             series = name if name in ("II", "III") else f"{name}, {case[0]}"
-            part = sums.setdefault((series, *reading), [0, 0, 0])
+            part = sums.setdefault((series, *reading), [0, 0, 0, 0])
             part[0] += gap**2
             part[1] += gap**2 if quantity == "Phi" else 0
             part[2] += 1
+            part[3] += len(x) if quantity == "z" else 0
     write(target / "readings.csv", table)
     lines = [["table", "mass", "edge_speed", "V0_of", "stiffened", "numbers", "chi2", "of_Phi", "of_z"]]
-    for (name, mass, *rest), (total, phi, n) in sorted(sums.items()):
+    for (name, mass, *rest), (total, phi, n, _) in sorted(sums.items()):
         lines.append([name, str(mass), *rest, str(n), f"{total:.0f}", f"{phi:.0f}", f"{total - phi:.0f}"])
     write(target / "readings_chi2.csv", lines)
     markdown(lines)

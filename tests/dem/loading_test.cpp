@@ -272,6 +272,18 @@ TEST(Failure, InCompressionCountsWhatIsCarriedBeyondTheOtherDirection) {
   EXPECT_LT(looks, 40);
 }
 
+// In a slow test a slip takes many vibrations and still little of the strain.
+TEST(Failure, IsNotASlipAfterWhichThePackingCarriesOn) {
+  Watched w(-1e-5);
+  for (int k = 0; k < 4000; ++k) ASSERT_FALSE(w.fails_at(-0.4)) << k;
+  for (int k = 0; k < 80; ++k) ASSERT_FALSE(w.fails_at(-0.1)) << k << ": 40 vibrations, 2 % of the test";
+  for (int k = 0; k < 1000; ++k) ASSERT_FALSE(w.fails_at(-0.4)) << k;
+  int looks = 0;
+  while (!w.fails_at(-0.01) && looks < 1000) ++looks;
+  EXPECT_GT(looks, 80);
+  EXPECT_LT(looks, 500) << "but a loss that lasts is one";
+}
+
 TEST(Failure, NeedsAPeak) {
   Watched w(-1e-3);
   for (int k = 0; k < 100; ++k) ASSERT_FALSE(w.fails_at(k % 2 ? 1e-4 : -1e-4)) << k;
