@@ -27,6 +27,8 @@ def paper():
 
 
 def names(folder):
+    if not (folder / "runs.csv").exists():
+        return []
     with open(folder / "runs.csv") as f:
         return list(dict.fromkeys(r["row"] for r in csv.DictReader(f)))
 
@@ -53,7 +55,7 @@ READINGS = {  # suffix of a row of readings.toml: mass, cap, V0, stiffening of B
 def loads(folder):
     """The grid of masses and caps (readings-loads.toml): Table V of the component's aggregates."""
     found = {}
-    for row in names(folder) if (folder / "runs.csv").exists() else []:
+    for row in names(folder):
         m = re.fullmatch(r"([AB])(-RR)?-inertia=([\d.]+)-max_edge_speed=([\d.e+]+)", row)
         cap = NO_CAP if float(m[4]) > 1 else f"{float(m[4]):g}"
         found[("V", m[1] + (" RR" if m[2] else ""), float(m[3]), cap, "component", FAST if m[1] == "B" else "-")] = [
@@ -98,14 +100,14 @@ def joint(sums):
     return lines
 
 
-def main():
-    out, target = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
-    numbers = paper()
-    table = [["table", "case", "quantity", "mass", "edge_speed", "V0_of", "stiffened", "ours", "error", "samples", "paper",
-              "paper_error", "gap"]]
-    sums = {}
-    for key, sources in {**method1(out / "method1", out / "readings-method1"),
-                         **loads(out / "readings-loads"),
+HEADER = ["table", "case", "quantity", "mass", "edge_speed", "V0_of", "stiffened", "ours", "error", "samples", "paper",
+          "paper_error", "gap"]
+
+
+def means(out, numbers):
+    """Rows of readings.csv by their first seven columns."""
+    rows = {}
+    for key, sources in {**method1(out / "method1", out / "readings-method1"), **loads(out / "readings-loads"),
                          **method2(out / "aggregation", out / "readings")}.items():
         for quantity in ("Phi", "z", "mean_radius_weighted"):
             name, case, *reading = key
@@ -116,18 +118,28 @@ def main():
             if len(x) < LEAST:
                 continue
             mean, error = statistics(x)
-            gap = gap_of(mean, error, r)
-            table.append([name, case, quantity, *map(str, reading), f"{mean:.5g}", f"{error:.2g}", str(len(x)),
-                          r["paper"], r["paper_error"], f"{gap:.2f}"])
-            if (name, quantity) == ("IV", "Phi") or quantity == "mean_radius_weighted" or (name, case, quantity) == MISPRINT:
-                continue  # the start's, no fit; of another definition (measured/paper.md)
-            series = name if name in ("II", "III") else f"{name}, {case[0]}"
-            part = sums.setdefault((series, *reading), [0, 0, 0, 0])
-            part[0] += gap**2
-            part[1] += gap**2 if quantity == "Phi" else 0
-            part[2] += 1
-            part[3] += len(x) if quantity == "z" else 0
-    write(target / "readings.csv", table)
+            row = [name, case, quantity, *map(str, reading), f"{mean:.5g}", f"{error:.2g}", str(len(x)), r["paper"],
+                   r["paper_error"], f"{gap_of(mean, error, r):.4g}"]
+            rows[tuple(row[:7])] = row
+    return rows
+
+
+def main():
+    out, target = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+    path = target / "readings.csv"
+    kept = [list(r.values()) for r in csv.DictReader(open(path))] if path.exists() else []
+    rows = {**{tuple(row[:7]): row for row in kept}, **means(out, paper())}
+    write(path, [HEADER, *rows.values()])
+    sums = {}
+    for name, case, quantity, mass, *reading, _, _, samples, _, _, gap in rows.values():
+        if (name, quantity) == ("IV", "Phi") or quantity == "mean_radius_weighted" or (name, case, quantity) == MISPRINT:
+            continue  # the start's, no fit; of another definition (measured/paper.md)
+        series = name if name in ("II", "III") else f"{name}, {case[0]}"
+        part = sums.setdefault((series, float(mass), *reading), [0, 0, 0, 0])
+        part[0] += float(gap)**2
+        part[1] += float(gap)**2 if quantity == "Phi" else 0
+        part[2] += 1
+        part[3] += int(samples) if quantity == "z" else 0
     lines = [["table", "mass", "edge_speed", "V0_of", "stiffened", "numbers", "chi2", "of_Phi", "of_z"]]
     for (name, mass, *rest), (total, phi, n, _) in sorted(sums.items()):
         lines.append([name, str(mass), *rest, str(n), f"{total:.0f}", f"{phi:.0f}", f"{total - phi:.0f}"])

@@ -11,7 +11,7 @@ A row such as A+A-5600 pools the samples of both: the paper does not distinguish
 samples. `gap` is (ours - paper) over the root of the sum of squares of our standard error and of the paper's printed error,
 which is a standard deviation in Tables II and III (`sd`, Sec. III.A) and not said to be one or the other elsewhere; `words`:
 a sentence without an error. `before`: the gap in gilabert2007_before.csv, with the readings that study_choices.csv keeps,
-whose number stands where a study has not been run. Numbers that Table III has twice, and once by a slip, are left out of chi^2 (`slip`).
+whose number stands where a study has not been run. Numbers of studies that are not in `out` stay as they are. Numbers that Table III has twice, and once by a slip, are left out of chi^2 (`slip`).
 """
 import csv
 import json
@@ -116,6 +116,8 @@ def chi_squares(rows):
 def main():
     out, target = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
     before = rows_before(target)
+    path = target / "gilabert2007.csv"
+    kept = {(r["table"], r["case"], r["quantity"]): r for r in csv.DictReader(open(path))} if path.exists() else {}
     lines = [["table", "case", "quantity", "ours", "error", "samples", "paper", "paper_error", "kind", "gap", "before"]]
     gaps = []
     for r in csv.DictReader(open(DATA)):
@@ -125,7 +127,12 @@ def main():
         x = []
         if (folder / "runs.csv").exists():
             x = [v for row in r["row"].split("+") for v in values(folder, row, r["stage"], r["quantity"])]
-        if not x:  # not run (again)
+        old = kept.get((r["table"], r["case"], r["quantity"]))
+        if not x and old and old["ours"]:  # not run again
+            lines.append(list(old.values()))
+            gaps.append((r["table"], was, float(old["gap"] or "nan"), r["doubt"]))
+            continue
+        if not x:
             if old := before.get(name_of(r)):
                 lines.append([r["table"], r["case"], r["quantity"], "", "", "", r["paper"], r["paper_error"], kind,
                               f"not run; {old['ours']} +- {old['error']} ({old['samples']}) before", was])

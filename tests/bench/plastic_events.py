@@ -3,13 +3,13 @@
 (docs/measured/strength.md).
 
     plastic_events.py STATE.h5... [--program build/release/bin/isostat] [--pressure 0.1] [--rate 1e-4] [--strain 0.03]
-                      [--interval 5] [--folder out/plastic-events] [-o docs/measured/results/plastic_events.csv]
+                      [--interval 5] [--drop 0.2] [--tolerance 1e-3] [--folder out/plastic-events] [-o docs/measured/results/plastic_events.csv]
 
 STATE: packings in equilibrium at the pressure. Each is compressed along direction 1 at the rate [1/T0], its lateral stress kept,
 with a snapshot every `interval` [T0]. The table has a line an interval: deviator before and after [F0/a], contacts lost and
 gained, rms of the non-affine displacement and its ratio to the affine one, share of the grains in regions that moved rigidly
-and the mean size of these. An interval is an event where the deviator falls by more than a tenth of what it has been at most so
-far. Prints means over events and over the other intervals, and draws the largest event of the first state.
+and the mean size of these. An interval is an event where the deviator falls by more than `drop` of what it has been at most so
+far; regions are rigid to `tolerance` [rad]. Prints means over events and over the other intervals, and draws the largest event of the first state.
 """
 import argparse
 import csv
@@ -46,13 +46,14 @@ def intervals(options, state, folder):
         if start < rows[0]["t"]:
             continue
         about = [statistics.mean(r["sigma11"] - r["sigma22"] for r in rows if abs(r["t"] - t) <= 1) for t in (start, end)]
-        report = json.loads(subprocess.run([options.program, "compare", before, after, "--json", "-"], check=True,
+        report = json.loads(subprocess.run([options.program, "compare", before, after, "--tolerance", str(options.tolerance),
+                                            "--json", "-"], check=True,
                                            capture_output=True, text=True).stdout)
         contacts, moved, rigid = report["contacts"], report["displacement"], report["rigid_regions"]
         highest = max(highest, about[0])
         found.append(({"state": os.path.basename(state), "strain": next(r["strain1"] for r in rows if r["t"] >= end - 1e-6),
                        "deviator_before": about[0], "deviator_after": about[1],
-                       "event": int(about[1] < about[0] - 0.1 * highest), "lost": contacts["lost"] / contacts["before"],
+                       "event": int(about[1] < about[0] - options.drop * highest), "lost": contacts["lost"] / contacts["before"],
                        "gained": contacts["gained"] / contacts["before"], "nonaffine_rms": moved["nonaffine_rms"],
                        "nonaffine_over_affine": moved["nonaffine_over_affine"], "rigid_share": rigid["share_of_grains"],
                        "rigid_mean_size": rigid["mean_size_weighted"]}, before, after))
@@ -67,6 +68,8 @@ def main():
     parser.add_argument("--rate", type=float, default=1e-4)
     parser.add_argument("--strain", type=float, default=0.03)
     parser.add_argument("--interval", type=float, default=5)
+    parser.add_argument("--drop", type=float, default=0.2)
+    parser.add_argument("--tolerance", type=float, default=1e-3)
     parser.add_argument("--folder", default=os.path.join(ROOT, "out/plastic-events"))
     parser.add_argument("-o", dest="output", default=os.path.join(ROOT, "docs/measured/results/plastic_events.csv"))
     options = parser.parse_args()
@@ -85,7 +88,7 @@ def main():
         print(f"| {name} | {len(group)} | " + " | ".join(f"{m:.3g}" for m in means) + " |")
     largest = max(found[0], key=lambda i: i[0]["deviator_before"] - i[0]["deviator_after"])
     picture = os.path.join(options.folder, "largest.svg")
-    subprocess.run([options.program, "compare", largest[1], largest[2], "-o", picture], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([options.program, "compare", largest[1], largest[2], "--tolerance", str(options.tolerance), "-o", picture], check=True, stdout=subprocess.DEVNULL)
     print(f"largest event of {largest[0]['state']}, strain {largest[0]['strain']:.4f}: {picture}")
 
 

@@ -81,6 +81,7 @@ PROTOCOLS = [
     Protocol("path", "damped cell, ramp 20, cap 0.0008", 8e-4, ramp=20, cell=LIGHT),
     *(Protocol("path", f"damped cell, 5 ramps of 50, cap {rate:g}", rate, STEPS, ramp=50, cell=LIGHT)
       for rate in (8e-4, 4e-4)),
+    Protocol("path", "damped cell, 5 ramps of 250, cap 8e-05", 8e-5, STEPS, ramp=250, cell=LIGHT),
     *(Protocol("path", f"damped cell, 8 static steps a decade, cap {rate:g}", rate, decades(8), cell=LIGHT)
       for rate in (0.05, 8e-4)),
     *(Protocol(test, f"paper's cell, at once, rate {rate:g}", rate, cell=PAPER)

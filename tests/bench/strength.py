@@ -25,6 +25,18 @@ def table(path):
         return list(csv.DictReader(f))
 
 
+def shortened(rows, curve):
+    """A mean curve with material, consolidation and normal stress in place of the keys that made them."""
+    x = list(rows[0])[list(rows[0]).index("runs") - 1]
+    lines = [["row", "material", "consolidation", "normal_stress", x, "runs", curve, curve + "_se"]]
+    for r in rows:
+        normal = r.get("stage.1.stress_2", "")
+        lines.append([r["row"], r["row"].split("-P")[0], f"{float(r['stage.0.pressure']):g}",
+                      f"{float(normal):g}" if normal else "", f"{float(r[x]):.4g}", r["n"],
+                      *(f"{float(r[k] or 'nan'):.4g}" for k in (curve, curve + "_se"))])
+    return lines
+
+
 def line(points):
     """(c, its error, slope, its error) of y = c + slope x; points: (x, y, error of y)."""
     w = [1 / e**2 for _, _, e in points]
@@ -39,15 +51,15 @@ def line(points):
 def main():
     out, target = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
     for study, curve in CURVES:
-        (target / f"strength_{curve}.csv").write_text((out / study / f"curve.{curve}.csv").read_text())
+        write(target / f"strength_{curve}.csv", shortened(table(out / study / f"curve.{curve}.csv"), curve))
     peaks = [r for r in table(out / "strength-shear/peaks.csv") if r["curve"] == "shear_stress"]
-    locus = [["material", "consolidation", "normal_stress", "runs", "peak", "peak_se", "at_strain"]]
+    locus = [["row", "material", "consolidation", "normal_stress", "runs", "peak", "peak_se", "at_strain"]]
     sets = {}
     for r in peaks:
-        material = r["row"].rsplit("-P", 1)[0]
+        material = r["row"].split("-P")[0]
         key = material, float(r["stage.0.pressure"])
         sets.setdefault(key, []).append((float(r["stage.1.stress_2"]), float(r["peak"]), float(r["peak_se"] or "nan")))
-        locus.append([material, f"{key[1]:g}", f"{float(r['stage.1.stress_2']):g}", r["n"],
+        locus.append([r["row"], material, f"{key[1]:g}", f"{float(r['stage.1.stress_2']):g}", r["n"],
                       *(f"{float(r[k] or 'nan'):.4g}" for k in ("peak", "peak_se", "at"))])
     largest = {(study, r["row"]): r for study, curve in (("strength-biaxial", "deviator"), ("strength-tension", "tension"))
                for r in table(out / study / "peaks.csv") if r["curve"] == curve}
