@@ -19,8 +19,8 @@
 #include "dem/solver/random.hpp"
 #include "dem/state/container_motion.hpp"
 #include "dem/state/container_region.hpp"
-#include "dem/state/smooth_walls.hpp"
 #include "dem/state/lower_tilt.hpp"
+#include "dem/state/smooth_walls.hpp"
 #include "dem/state/touching.hpp"
 
 namespace isostat {
