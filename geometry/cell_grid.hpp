@@ -55,7 +55,7 @@ class CellGrid {
       inverse_[u] = frame.length[k] > 0 ? count_[u] / frame.length[k] : 0.0;
     }
   }
-  bool upright() const { return slant_ == 0; }
+  double lean() const { return lean_; }  // how much longer a column's edge is than it is wide; 1 in an upright frame
   int count(int axis) const { return count_[static_cast<std::size_t>(axis)]; }
   double width(int axis) const {  // across the columns; infinite in a flat frame
     return 1 / ((axis == 0 ? lean_ : 1.0) * inverse_[static_cast<std::size_t>(axis)]);
@@ -89,7 +89,7 @@ class CellGrid {
  private:
   static constexpr double kMostColumns = 30000, kCellsPerBody = 16, kAlwaysAllowed = 65536;
   Vec<D> origin_;
-  double slant_, lean_;  // lean: how much longer a column's edge is than its height
+  double slant_, lean_;
   std::array<int, D> count_{};
   std::array<double, D> inverse_{};
 };

@@ -12,19 +12,22 @@ constexpr double kMargin = 0.1;         // [mean diameter] around an isolated pa
 
 }  // namespace
 
+void set_cell(Extent& extent, const PeriodicCell<2>& cell) {
+  extent.cell = cell;
+  extent.low = {{std::min(0.0, cell.tilt), 0}};
+  extent.high = cell.length + Vec2{{std::max(0.0, cell.tilt), 0}};
+}
+
 Extent extent_of(const Packing<2>& packing, double margin) {
   const Bodies<2>& b = packing.bodies;
   if (b.size() == 0) throw std::invalid_argument("a picture needs grains");
   Extent extent;
-  extent.cell = packing.cell;
   const std::size_t grains = count_free(packing);  // an emptied hopper: its walls set the scale
   for (std::size_t k = 0; k < b.size(); ++k)
     if (grains == 0 || is_free(packing.part, k))
       extent.diameter += 2 * b.radius[k] / static_cast<double>(grains == 0 ? b.size() : grains);
   if (packing.cell) {
-    const double tilt = packing.cell->tilt;
-    extent.low[0] = std::min(0.0, tilt);
-    extent.high = packing.cell->length + Vec2{{std::max(0.0, tilt), 0}};
+    set_cell(extent, *packing.cell);
     return extent;
   }
   extent.low = extent.high = b.position[0];

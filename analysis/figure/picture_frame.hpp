@@ -22,6 +22,9 @@ struct Extent {
 // packing without bodies.
 Extent extent_of(const Packing<2>& packing, double margin = 0);
 
+// The window around a cell, however it leans.
+void set_cell(Extent& extent, const PeriodicCell<2>& cell);
+
 // Room for both, one over the other; cells of two sizes have their centres in common.
 Extent around(const Extent& a, const Extent& b);
 

@@ -22,9 +22,7 @@ Extent extent_in(const SpherePacking& packing, const Slice& slice, const Packing
   const View view = view_along(slice.axis);
   const double diameter = extent_of(packing, view).diameter;
   Extent extent = extent_of(packing, view, margin_of(circles, content, diameter));
-  if (!packing.cell) return extent;
-  extent.cell = PeriodicCell<2>{view.flat(packing.cell->length)};
-  extent.low = {}, extent.high = extent.cell->length;
+  if (circles.cell) set_cell(extent, *circles.cell);
   return extent;
 }
 

@@ -21,12 +21,25 @@ void grow(Extent& extent, const Vec2& at, double reach) {
 
 }  // namespace
 
-Vec3 middle_of(const SpherePacking& packing) { return packing.cell ? 0.5 * packing.cell->length : Vec3{}; }
+Vec3 half_edge(const PeriodicCell<3>& cell, int k) {
+  Vec3 half{};
+  half[k] = 0.5 * cell.length[k];
+  if (k == 1) half[0] = 0.5 * cell.tilt;
+  return half;
+}
+
+double half_reach(const PeriodicCell<3>& cell, const Vec3& along) {
+  double reach = 0;
+  for (int k = 0; k < 3; ++k) reach += std::abs(dot(along, half_edge(cell, k)));
+  return reach;
+}
+
+Vec3 middle_of(const SpherePacking& packing) { return packing.cell ? packing.cell->point({{0.5, 0.5, 0.5}}) : Vec3{}; }
 
 DepthRange depth_range(const SpherePacking& packing, const View& view) {
   DepthRange range;
   if (packing.cell) {
-    for (int k = 0; k < 3; ++k) range.near += 0.5 * std::abs(view.toward[k]) * packing.cell->length[k];
+    range.near = half_reach(*packing.cell, view.toward);
     range.far = -range.near;
     return range;
   }
@@ -53,11 +66,7 @@ Extent extent_of(const SpherePacking& packing, const View& view, double margin) 
     extent.diameter += 2 * b.radius[k] / static_cast<double>(b.size());
   }
   if (packing.cell) {
-    Vec2 half{};
-    for (int k = 0; k < 3; ++k) {
-      half[0] += std::abs(view.right[k]) * 0.5 * packing.cell->length[k];
-      half[1] += std::abs(view.up[k]) * 0.5 * packing.cell->length[k];
-    }
+    const Vec2 half{{half_reach(*packing.cell, view.right), half_reach(*packing.cell, view.up)}};
     grow(extent, half, 0), grow(extent, -1.0 * half, 0);
     for (int k = 0; k < 2; ++k)  // about the middle, that cells of a series be concentric
       extent.high[k] = std::max(extent.high[k], -extent.low[k]), extent.low[k] = -extent.high[k];

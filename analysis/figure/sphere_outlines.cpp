@@ -20,18 +20,21 @@ bool acts_on(const SphereWall& wall, const SpherePacking& packing, std::size_t b
 
 void draw_cell(Canvas& canvas, const SpherePen& pen, Side side) {
   if (!pen.packing().cell) return;
-  const Vec3 half = 0.5 * pen.packing().cell->length;
-  const auto looks_away = [&](int axis, int sign) { return !(sign * pen.view().toward[axis] > kFlat); };
+  const PeriodicCell<3>& cell = *pen.packing().cell;
+  const auto looks_away = [&](int axis, int sign) {  // the face that the edge `axis` leads to, or the one opposite
+    Vec3 normal{};
+    normal[axis] = 1;
+    if (axis == 0) normal[1] = -cell.slant();
+    return !(sign * pen.view().depth(normal) > kFlat);
+  };
   canvas.begin_group("cell");
   for (int along = 0; along < 3; ++along) {
     const int a = (along + 1) % 3, b = (along + 2) % 3;
     for (const int sa : {-1, 1})
       for (const int sb : {-1, 1}) {
         if ((looks_away(a, sa) && looks_away(b, sb)) != (side == Side::back)) continue;
-        Vec3 from;
-        from[along] = -half[along], from[a] = sa * half[a], from[b] = sb * half[b];
-        Vec3 to = from;
-        to[along] = half[along];
+        const Vec3 middle = sa * half_edge(cell, a) + sb * half_edge(cell, b), half = half_edge(cell, along);
+        const Vec3 from = middle - half, to = middle + half;
         const std::array ends{pen.page(from), pen.page(to)};
         if (norm(ends[1] - ends[0]) < kDotted) continue;
         canvas.polyline(ends, side == Side::back ? Stroke{kFaint, 0.6, {}} : Stroke{kInk, 0.9, {}});

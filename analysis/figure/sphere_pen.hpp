@@ -32,6 +32,10 @@ DepthRange around(const DepthRange& a, const DepthRange& b);
 // the packing's own origin.
 Vec3 middle_of(const SpherePacking& packing);
 
+// Half of the edge k of a cell, and half of how far the cell reaches along a direction (a unit vector).
+Vec3 half_edge(const PeriodicCell<3>& cell, int k);
+double half_reach(const PeriodicCell<3>& cell, const Vec3& along);
+
 // Window around the cell, the spheres as they stick out of it, and the walls.
 Extent extent_of(const SpherePacking& packing, const View& view, double margin = 0);
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 #include <utility>
 
 #include "geometry/base/index.hpp"
@@ -22,7 +23,11 @@ SlicedSpheres cut(const SpherePacking& packing, const Slice& slice) {
   const Bodies<3>& b = packing.bodies;
   const auto [u, v] = axes_in(slice);
   SlicedSpheres out;
-  if (packing.cell) out.packing.cell = PeriodicCell<2>{{{packing.cell->length[u], packing.cell->length[v]}}};
+  const double tilt = packing.cell ? packing.cell->tilt : 0;
+  if (tilt != 0 && slice.axis == 0) throw std::invalid_argument("cut: across the axis along which the cell leans");
+  if (packing.cell)
+    out.packing.cell =
+        PeriodicCell<2>{{{packing.cell->length[u], packing.cell->length[v]}}, slice.axis == 2 ? tilt : 0};
   std::map<std::pair<std::int32_t, double>, std::int32_t> circle;  // by sphere and (whole) image along the axis
   Bodies<2>& disks = out.packing.bodies;
   const auto add = [&](std::size_t k, double image, double distance) {
@@ -43,9 +48,12 @@ SlicedSpheres cut(const SpherePacking& packing, const Slice& slice) {
     }
     const double edge = packing.cell->length[slice.axis];
     const double cells = std::floor(place / edge), inside = place - cells * edge;  // however far it has gone
-    const double at = slice.at - std::floor(slice.at / edge) * edge;
+    const double whole = std::floor(slice.at / edge), at = slice.at - whole * edge;
     for (double m = std::ceil((at - radius - inside) / edge); inside + m * edge < at + radius; ++m)
-      if (const double d = at - (inside + m * edge); std::abs(d) < radius) add(k, m - cells, d);
+      if (const double d = at - (inside + m * edge); std::abs(d) < radius) {
+        add(k, m - cells, d);
+        if (slice.axis == 1) disks.position.back()[0] += (m - cells + whole) * tilt;  // images above lean over
+      }
   }
   for (const Link<3>& l : packing.links)
     for (auto at = circle.lower_bound({l.i, -INFINITY}); at != circle.end() && at->first.first == l.i; ++at) {

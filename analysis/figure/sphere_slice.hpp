@@ -21,6 +21,7 @@ struct SlicedSpheres {
 };
 
 // Every image of a sphere that the plane cuts makes a circle. A sphere that the plane touches in a point is not cut.
+// Across the first axis a cell must not lean (std::invalid_argument): the section would not be periodic.
 SlicedSpheres cut(const SpherePacking& packing, const Slice& slice);
 
 }  // namespace isostat

@@ -12,7 +12,7 @@ SphereGeometry<F> exact_geometry(const SphereNetwork& network) {
   g.position.reserve(packing.bodies.size()), g.radius.reserve(packing.bodies.size());
   for (const Vec3& r : packing.bodies.position) g.position.push_back(image(r));
   for (const double r : packing.bodies.radius) g.radius.push_back(F::from_double(r));
-  if (packing.cell) g.cell = image(packing.cell->length);
+  if (packing.cell) g.cell = image(packing.cell->length), g.tilt = F::from_double(packing.cell->tilt);
   return g;
 }
 
@@ -29,6 +29,7 @@ SphereGeometry<F> random_geometry(const SphereNetwork& network, std::uint64_t se
   for (std::size_t i = 0; i < network.packing.bodies.size(); ++i)
     g.position.push_back(point()), g.radius.push_back(next());
   if (network.packing.cell) g.cell = point();
+  if (network.packing.cell && network.packing.cell->tilt != 0) g.tilt = next();
   return g;
 }
 

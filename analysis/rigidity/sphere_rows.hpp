@@ -32,12 +32,14 @@ template <class F>
 struct SphereGeometry {
   std::vector<Real3<F>> position;
   std::vector<F> radius;
-  Real3<F> cell{};  // zero when isolated
+  Real3<F> cell{};  // L1, L2, L3; zero when isolated
+  F tilt{};         // of the second edge along the first
 
   Real3<F> offset(const ImageShift<3>& s) const {
     Real3<F> o{};
     for (std::size_t k = 0; k < 3; ++k)
       if (s[k] != 0) o[k] = F::from_integer(s[k]) * cell[k];
+    if (s[1] != 0) o[0] = o[0] + F::from_integer(s[1]) * tilt;
     return o;
   }
   Real3<F> placed(std::size_t grain, const ImageShift<3>& s) const {

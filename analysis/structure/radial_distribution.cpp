@@ -12,7 +12,7 @@
 namespace isostat {
 namespace {
 
-// Grains by cell of a grid whose cells are at least r_max wide, positions in the home cell.
+// Grains by cell of a grid along the edges whose cells are at least r_max wide, positions in the home cell.
 struct Grid {
   std::array<int, 3> count{};
   std::vector<std::size_t> start;
@@ -24,17 +24,17 @@ struct Grid {
 Grid grid_of(const Packing<3>& packing, double r_max) {
   constexpr double kMostCells = 100;  // an axis: a long thin cell would have more of them than grains
   Grid grid;
-  const Vec3& length = packing.cell->length;
+  const Vec3 spacing = packing.cell->spacing();
   for (int k = 0; k < 3; ++k)
-    grid.count[idx(k)] = static_cast<int>(std::clamp(std::floor(length[k] / r_max), 1.0, kMostCells));
+    grid.count[idx(k)] = static_cast<int>(std::clamp(std::floor(spacing[k] / r_max), 1.0, kMostCells));
   std::vector<std::size_t> at;
   std::vector<Vec3> wrapped;
   for (const Vec3& r : packing.bodies.position) {
     wrapped.push_back(packing.cell->wrap(r));
+    const Vec3 f = packing.cell->fractions(wrapped.back());
     std::array<int, 3> c;
     for (int k = 0; k < 3; ++k)
-      c[idx(k)] =
-          std::min(static_cast<int>(wrapped.back()[k] / length[k] * grid.count[idx(k)]), grid.count[idx(k)] - 1);
+      c[idx(k)] = std::clamp(static_cast<int>(f[k] * grid.count[idx(k)]), 0, grid.count[idx(k)] - 1);
     at.push_back(grid.cell(c[0], c[1], c[2]));
   }
   grid.start.assign(idx(grid.count[0]) * idx(grid.count[1]) * idx(grid.count[2]) + 1, 0);
@@ -46,11 +46,23 @@ Grid grid_of(const Packing<3>& packing, double r_max) {
   return grid;
 }
 
+double nearest_square(const PeriodicCell<3>& cell, Vec3 d) {
+  if (cell.tilt != 0) {
+    d += cell.offset(cell.nearest_image(d));
+    return dot(d, d);
+  }
+  double square = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double near = std::min(std::abs(d[k]), cell.length[k] - std::abs(d[k]));
+    square += near * near;
+  }
+  return square;
+}
+
 }  // namespace
 
 RadialDistribution radial_distribution(const Packing<3>& packing, double r_max, double bin) {
   const Grid grid = grid_of(packing, r_max);
-  const Vec3& length = packing.cell->length;
   const auto bins = static_cast<std::size_t>(std::floor(r_max / bin));
   std::vector<std::int64_t> pairs(bins, 0);
   const auto neighbours = [](int c, int count) {  // of an axis, each once
@@ -69,12 +81,7 @@ RadialDistribution radial_distribution(const Packing<3>& packing, double r_max, 
               if (b < a) continue;
               for (std::size_t i = grid.start[a]; i < grid.start[a + 1]; ++i)
                 for (std::size_t j = a == b ? i + 1 : grid.start[b]; j < grid.start[b + 1]; ++j) {
-                  double square = 0;
-                  for (int k = 0; k < 3; ++k) {
-                    double d = std::abs(grid.position[j][k] - grid.position[i][k]);
-                    d = std::min(d, length[k] - d);
-                    square += d * d;
-                  }
+                  const double square = nearest_square(*packing.cell, grid.position[j] - grid.position[i]);
                   const double slot = std::sqrt(square) / bin;
                   if (slot < static_cast<double>(bins)) ++pairs[static_cast<std::size_t>(slot)];
                 }
@@ -95,8 +102,7 @@ nlohmann::ordered_json rdf_section(const AnalysisInput& input, const AnalysisOpt
   constexpr double kReach = 5, kBinsPerDiameter = 40;  // in largest diameters
   const Packing<3>& packing = *input.packing_3d;
   const double diameter = 2 * *std::max_element(packing.bodies.radius.begin(), packing.bodies.radius.end());
-  const auto& edges = packing.cell->length.c;
-  const double half = 0.5 * *std::min_element(edges.begin(), edges.end());
+  const double half = 0.5 * packing.cell->shortest_spacing();
   const RadialDistribution rdf =
       radial_distribution(packing, std::min(kReach * diameter, half), diameter / kBinsPerDiameter);
   return {{"r_edges", rdf.edges}, {"g", rdf.g}};

@@ -146,6 +146,9 @@ void add_slices(Drawing& drawing, const Arguments& arguments, const Slice& slice
   bool any = false;
   for (std::size_t k = 0; k < series.states.size(); ++k) {
     const SpherePacking& packing = series.states[k].packing;
+    if (slice.axis == 0 && packing.cell && packing.cell->tilt != 0)
+      throw InputError(path, 0, "--slice", *arguments.value("--slice"),
+                       "a cell that leans along x has no periodic section across x: cut it at y or z");
     SlicedSpheres sliced = cut(packing, slice);
     any = any || !sliced.sphere.empty();
     auto content = series.what == "forces"

@@ -19,6 +19,7 @@
 #include "dem/solver/random.hpp"
 #include "dem/state/container_motion.hpp"
 #include "dem/state/container_region.hpp"
+#include "dem/state/lower_tilt.hpp"
 #include "dem/state/smooth_walls.hpp"
 #include "dem/state/touching.hpp"
 
@@ -143,14 +144,6 @@ void set_time_step(State<Disks>& state, const std::string& origin) {
                          ", or without this key as the grains bear");
   for (const SceneConflict& c : wall_motion_conflicts(scene, state.time_step, smallest))
     throw InputError("scene", 0, c.key, c.value, c.rule);
-}
-
-// The cell in its shape nearest to a rectangle: as it would be lowered to when it shears.
-void lower_tilt(Packing<2>& packing) {
-  if (!packing.cell) return;
-  const int turns = packing.cell->turns();
-  packing.cell->tilt -= turns * packing.cell->length[0];
-  for (Link<2>& l : packing.links) l.shift[0] += turns * l.shift[1];
 }
 
 // grains.file: bodies, cell and spring histories of a packing under the scene's law, at time 0.

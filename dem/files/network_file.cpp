@@ -93,7 +93,6 @@ class NetworkParser {
   }
 
   void tilt(int line, const Fields& f) {
-    if constexpr (D == 3) return fault(line, "tilt", "", "a cell in space stands upright; only one of the plane tilts");
     if (f.size() != 2) return fault(line, "tilt", std::to_string(f.size() - 1) + " numbers", "tilt T");
     if (tilt_line_ > 0)
       return fault(line, "tilt", "", "given before in line " + std::to_string(tilt_line_) + "; keep one");

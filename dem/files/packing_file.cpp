@@ -176,8 +176,6 @@ void read_tables_into(PackingFile& file, const TextTable& grains, const BesideGr
     if (beside.cell->size() < D)
       throw InputError(grains.path, 0, "cell", "", "needs " + std::to_string(D) + " edges for these grains");
     packing.cell = cell_of<D>(*beside.cell);
-    if (D == 3 && beside.tilt != 0)
-      throw InputError(grains.path, 0, "tilt", "", "a cell in space stands upright; only one of the plane tilts");
     packing.cell->tilt = beside.tilt;
   }
   set_box(packing, grains.path, reading);

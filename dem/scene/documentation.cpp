@@ -79,7 +79,7 @@ std::string scene_documentation() {
       "n-th `[[stage]]` are `stage.n.KEY`, counted from 0. An integer is accepted for a real. A key whose condition "
       "does not hold is ignored.\n\n"
       "The key `system` says what the grains are, disks where it is absent. Keys of all systems come first, then those "
-      "that only one of them has; a key of another system is an error.\n\n"
+      "that some of them or only one has; a key of another system is an error.\n\n"
       "Units of disks: a is the largest diameter, m the mass of a disk of that diameter, F0 the attraction of a "
       "contact (without cohesion a P), T0 = sqrt(m a / F0), V* = sqrt(F0 D0 / m) (without cohesion see "
       "stage.velocity), F1 = max(F0, a P).\n\n"
@@ -92,9 +92,9 @@ std::string scene_documentation() {
       "heaviest "
       "grain) or, without either, 1 dyn.\n";
   text += "\n## Keys of all systems\n" + tables_of(SystemSet::all());
-  for (std::size_t s = 0; s < kSystemNames.size(); ++s)
-    text +=
-        "\n## Keys of " + std::string(kSystemNames[s]) + "\n" + tables_of(SystemSet::only(static_cast<SceneSystem>(s)));
+  std::vector<SystemSet> sets{SystemSet::both(SceneSystem::disks, SceneSystem::spheres)};
+  for (std::size_t s = 0; s < kSystemNames.size(); ++s) sets.push_back(SystemSet::only(static_cast<SceneSystem>(s)));
+  for (const SystemSet set : sets) text += "\n## Keys of " + names_of(set) + "\n" + tables_of(set);
   return text;
 }
 

@@ -207,12 +207,9 @@ class Parser {
     for (const Given& g : given_) {
       if (row_of(g.key, scene_keys(system_))) continue;
       std::string rule = unknown(g.key);
-      if (const SceneKey* other = row_of(g.key, scene_keys())) {
-        std::size_t at = 0;
-        while (!other->systems.has(static_cast<SceneSystem>(at))) ++at;
-        rule = "a key of " + std::string(kSystemNames[at]) + ", and this scene is of " + std::string(name(system_)) +
+      if (const SceneKey* other = row_of(g.key, scene_keys()))
+        rule = "a key of " + names_of(other->systems) + ", and this scene is of " + std::string(name(system_)) +
                ": the key system says so (without it: disks)";
-      }
       fault(g.file, g.line, g.key, text_of(*g.node), rule);
     }
     if (units_line_ && !row_of("units.a", scene_keys(system_)) && !has_given("units."))

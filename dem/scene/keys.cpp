@@ -23,7 +23,8 @@ constexpr SceneCondition has_series{[](const Scene& s) { return !s.output.series
 std::vector<SceneKey> common_keys() {
   using S = Scene;
   using namespace key_rows;
-  constexpr SystemSet of_disks = SystemSet::only(SceneSystem::disks);
+  constexpr SystemSet of_disks = SystemSet::only(SceneSystem::disks),
+                      of_round_grains = SystemSet::both(SceneSystem::disks, SceneSystem::spheres);
   return {
       {.name = "system",
        .field = system_field,
@@ -145,7 +146,7 @@ std::vector<SceneKey> common_keys() {
        .field = in<&S::stages, &StageScene::stress_12>,
        .unit = "F0/a",
        .absent = "the cell keeps its angles",
-       .systems = of_disks,
+       .systems = of_round_grains,
        .meaning =
            "Shear stress sigma_12 imposed by tilting the cell, work-conjugate to the strain -d(tilt)/L2; 0 with a "
            "pressure makes a packing without shear stress (docs/shear.md)."},
@@ -153,7 +154,7 @@ std::vector<SceneKey> common_keys() {
        .field = in<&S::stages, &StageScene::shear_rate>,
        .unit = "1/T0",
        .absent = "none imposed",
-       .systems = of_disks,
+       .systems = of_round_grains,
        .meaning = "Rate d(tilt)/dt / L2 imposed in place of a shear stress: positive moves the top of the cell along "
                   "direction 1, 0 keeps its angles."},
       {.name = "stage.ramp_time",
@@ -308,6 +309,13 @@ const std::vector<SceneKey>& scene_keys(SceneSystem system) {
     return all;
   }();
   return tables[static_cast<std::size_t>(system)];
+}
+
+std::string names_of(SystemSet systems) {
+  std::string text;
+  for (std::size_t s = 0; s < kSystemNames.size(); ++s)
+    if (systems.has(static_cast<SceneSystem>(s))) text += (text.empty() ? "" : " and ") + std::string(kSystemNames[s]);
+  return text;
 }
 
 bool belongs_to_stage(const SceneKey& key) { return key.name.starts_with("stage."); }

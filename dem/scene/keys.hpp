@@ -26,6 +26,7 @@ class SystemSet {
  public:
   static constexpr SystemSet all() { return SystemSet(~0u); }
   static constexpr SystemSet only(SceneSystem s) { return SystemSet(bit(s)); }
+  static constexpr SystemSet both(SceneSystem s, SceneSystem t) { return SystemSet(bit(s) | bit(t)); }
   constexpr bool has(SceneSystem s) const { return bits_ & bit(s); }
   friend constexpr bool operator==(SystemSet, SystemSet) = default;
 
@@ -34,6 +35,8 @@ class SystemSet {
   static constexpr unsigned bit(SceneSystem s) { return 1u << static_cast<unsigned>(s); }
   unsigned bits_;
 };
+
+std::string names_of(SystemSet systems);  // "disks and spheres"
 
 struct SceneRange {
   double low = -std::numeric_limits<double>::infinity();

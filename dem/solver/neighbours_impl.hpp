@@ -231,8 +231,7 @@ void NeighbourLists<Columns>::find_outer(const Bodies& bodies) {
   outer_i_.clear(), outer_j_.clear(), outer_shift_.clear();
 
   const CellGrid<D> grid = grid_in(frame_of(outer_cell_, outer_position_), largest_diameter_ + range_ + outer_skin_);
-  // The grids of the sizes stand upright: a tilted cell is searched with the one of the largest grain.
-  if (broad() && grid.upright()) return find_outer_by_size(bodies);
+  if (broad()) return find_outer_by_size(bodies);
   const GridMembers<D> members(grid, outer_position_);
   for (std::size_t i = 0; i < bodies_; ++i) {
     const Vec<D> ri = outer_position_[i];

@@ -2,7 +2,8 @@
 // grid of its own, as wide as its bodies reach. Between two levels either every body of the finer looks for partners in
 // the coarser grid, in the few cells that its reach touches, or, where the larger bodies are few, they look in the
 // finer grid, whose cells are read in rows: the inside of a large body is empty and costs nothing. What is cheaper
-// follows from the numbers of bodies.
+// follows from the numbers of bodies. In a tilted cell columns of the first axis lean with it: a place along it is
+// x - slant y, which an image along the second edge leaves as it is.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -19,8 +20,8 @@ namespace isostat {
 template <int D>
 class SizeLevels {
  public:
-  // Positions inside the cell, if there is one; pairs are wanted whose gap is at most `beyond` [a]. In each direction
-  // the cell is at least as long as the largest diameter and `beyond`.
+  // Positions inside the cell, if there is one; pairs are wanted whose gap is at most `beyond` [a]. Opposite faces of
+  // the cell are at least as far apart as the largest diameter and `beyond`.
   SizeLevels(const std::optional<PeriodicCell<D>>& cell, const std::vector<Vec<D>>& position,
              const std::vector<double>& radius, double beyond)
       : cell_(cell), position_(position), radius_(radius), beyond_(beyond), level_(position.size()) {
@@ -31,6 +32,7 @@ class SizeLevels {
       bodies[static_cast<std::size_t>(level_[k])].push_back(static_cast<std::int32_t>(k));
     }
     const Frame<D> frame = frame_of(cell, position);
+    slant_ = frame.slant;
     levels_.reserve(kMostLevels);
     for (const std::vector<std::int32_t>& of_level : bodies) levels_.emplace_back(frame, of_level, *this);
     for (std::size_t from = 0; from < kMostLevels; ++from)
@@ -66,7 +68,7 @@ class SizeLevels {
     CellGrid<D> grid;
     double largest_radius = 0;
     std::array<double, D> width{};    // [a] of a column; 0 in a flat frame
-    double per_width = 0;             // along the first axis
+    double per_width = 0;             // along the first axis, columns per length along it
     std::vector<std::int32_t> begin;  // of cell c: members[begin[c] .. begin[c + 1])
     std::vector<Member> members;
 
@@ -74,7 +76,7 @@ class SizeLevels {
         : grid(frame, reach_of(bodies, all), bodies.size()) {
       if (bodies.empty()) return;
       for (int a = 0; a < D; ++a) width[static_cast<std::size_t>(a)] = frame.length[a] > 0 ? grid.width(a) : 0.0;
-      per_width = width[0] > 0 ? 1 / width[0] : 0.0;
+      per_width = width[0] > 0 ? 1 / (grid.lean() * width[0]) : 0.0;
       begin.assign(grid.size() + 1, 0), members.resize(bodies.size());
       std::vector<std::size_t> cell(bodies.size());
       for (std::size_t n = 0; n < bodies.size(); ++n) {
@@ -108,19 +110,21 @@ class SizeLevels {
     // cell the bodies that come after it: so each pair is seen once.
     template <bool kOwn, class Visit>
     void search(std::size_t i, const SizeLevels& all, Visit& visit) const {
-      const Vec<D>& ri = all.position_[i];
+      Vec<D> ri = all.position_[i];
+      ri[0] -= all.slant_ * ri[1];
       const double reach = (all.radius_[i] + largest_radius + all.beyond_) * kRounding;
       Box box;
       for (int a = 0; a < D; ++a) {
         const auto u = static_cast<std::size_t>(a);
         const int n = grid.count(a);
+        const double along = a == 0 ? grid.lean() * reach : reach;
         const auto whole = [n](double x) { return static_cast<int>(std::clamp(x, -1.0 * n, 2.0 * n - 1) + n) - n; };
-        box.low[u] = whole(grid.coordinate(ri[a] - reach, a)), box.high[u] = whole(grid.coordinate(ri[a] + reach, a));
+        box.low[u] = whole(grid.coordinate(ri[a] - along, a)), box.high[u] = whole(grid.coordinate(ri[a] + along, a));
         if (!all.cell_) box.low[u] = std::max(box.low[u], 0), box.high[u] = std::min(box.high[u], n - 1);
         box.at[u] = grid.coordinate(ri[a], a);
         if constexpr (kOwn) box.own[u] = grid.column(ri[a], a);
       }
-      rows<D - 1, kOwn>(i, all, visit, box, reach * reach, 0, {}, {}, kOwn);
+      rows<D - 1, kOwn>(i, all, visit, box, reach * reach, 0, {}, {}, kOwn, {});
     }
 
     struct Box {
@@ -128,11 +132,16 @@ class SizeLevels {
       std::array<double, D> at;  // the body, in columns
     };
 
+    struct Lean {
+      double low = 0, high = 0;  // in columns
+    };
+
     // Axes from the last to the first. `rest`: the squared reach less the squared distance of the columns so far.
-    // `level_with`: so far the columns are those of the body's own cell.
+    // `level_with`: so far the columns are those of the body's own cell. `lean`: by how much columns of the first axis
+    // are shifted between the body and what is near it in this row.
     template <int kAxis, bool kOwn, class Visit>
     void rows(std::size_t i, const SizeLevels& all, Visit& visit, const Box& box, double rest, std::size_t index,
-              const Vec<D>& offset, ImageShift<D> shift, bool level_with) const {
+              const Vec<D>& offset, ImageShift<D> shift, bool level_with, const Lean& lean) const {
       const int n = grid.count(kAxis);
       constexpr auto u = static_cast<std::size_t>(kAxis);
       const int low = kOwn && level_with ? box.own[u] : box.low[u];
@@ -144,22 +153,23 @@ class SizeLevels {
           shift[u] = s;
           Vec<D> moved = offset;
           if (s != 0) moved[kAxis] = s * all.cell_->length[kAxis];
+          if (kAxis == 1 && s != 0) moved[0] += s * all.cell_->tilt;
           rows<kAxis - 1, kOwn>(
               i, all, visit, box, rest - away * away,
               (index + static_cast<std::size_t>(c - s * n)) * static_cast<std::size_t>(grid.count(kAxis - 1)), moved,
-              shift, level_with && c == box.own[u]);
+              shift, level_with && c == box.own[u], kAxis == 1 ? lean_over(c, all, box, std::sqrt(rest)) : lean);
         }
       } else {
         const double half = std::sqrt(rest) * per_width + kRounding - 1;  // in columns
         const auto whole = [n](double x) { return static_cast<int>(std::clamp(x, -1.0 * n, 2.0 * n - 1) + n) - n; };
-        const int begins = std::max(low, whole(box.at[u] - half)),
-                  ends = std::min(box.high[u], whole(box.at[u] + half));
+        const int begins = std::max(low, whole(box.at[u] + lean.low - half)),
+                  ends = std::min(box.high[u], whole(box.at[u] + lean.high + half));
         for (int s = begins < 0 ? -1 : 0; s * n <= ends; ++s) {
           const int first = std::max(begins, s * n), last = std::min(ends, s * n + n - 1);
           if (first > last) continue;
           shift[u] = s;
           Vec<D> moved = offset;
-          if (s != 0) moved[kAxis] = s * all.cell_->length[kAxis];
+          if (s != 0) moved[kAxis] += s * all.cell_->length[kAxis];
           const auto from = static_cast<std::size_t>(begin[index + static_cast<std::size_t>(first - s * n)]);
           const auto to = static_cast<std::size_t>(begin[index + static_cast<std::size_t>(last - s * n) + 1]);
           // The first cell of this run is the body's own.
@@ -168,6 +178,14 @@ class SizeLevels {
                all, visit, moved, shift);
         }
       }
+    }
+
+    // Of the heights of row c that are within the reach.
+    Lean lean_over(int c, const SizeLevels& all, const Box& box, double reach) const {
+      const double low = std::clamp(width[1] * (c - box.at[1]), -reach, reach),
+                   high = std::clamp(width[1] * (c + 1 - box.at[1]), -reach, reach);
+      const double a = -all.slant_ * low * per_width, b = -all.slant_ * high * per_width;
+      return {std::min(a, b), std::max(a, b)};
     }
 
     // Up to `own` only bodies of a higher index.
@@ -195,7 +213,7 @@ class SizeLevels {
   const std::optional<PeriodicCell<D>>& cell_;
   const std::vector<Vec<D>>& position_;
   const std::vector<double>& radius_;
-  double beyond_;
+  double beyond_, slant_ = 0;
   std::vector<int> level_;
   std::vector<Level> levels_;
   std::array<std::array<bool, kMostLevels>, kMostLevels> searches_{};  // bodies of the first in the grid of the second

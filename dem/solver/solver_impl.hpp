@@ -26,7 +26,7 @@ Solver<System>::Solver(const State<System>& state, const CellControl<D>& control
                      "a stress or strain rate needs a periodic cell; this packing is isolated");
   if (constexpr bool can = requires { Engine::kShears; }; control.shears() && !can)
     throw InputError("scene", 0, "stage", "",
-                     "a cell shears with disks in it, and not with " + std::string(System::name));
+                     "a cell shears with disks or spheres in it, and not with " + std::string(System::name));
   if (engine_.begins()) {
     engine_.compute_forces(cell_, flow_, 0.0);
     engine_.start_half_steps();

@@ -34,7 +34,8 @@ std::vector<BodyLoad3> net_loads(const SpherePacking& packing) {
 }
 
 double force_scale(const SphereLaw& law, const ImposedStress<3>& imposed) {
-  const double scale = std::max(law.attraction, std::abs(largest_stress(imposed).value_or(0.0)));
+  const double scale = std::max(
+      {law.attraction, std::abs(largest_stress(imposed).value_or(0.0)), std::abs(imposed.shear.value_or(0.0))});
   return scale > 0 ? scale : 1.0;
 }
 
@@ -77,10 +78,13 @@ Certificate evaluate_certificate(const SpherePacking& packing, const SphereLaw& 
   c.max_moment = largest_moment / c.force_scale;
   c.kinetic_energy_per_grain = energy / static_cast<double>(std::max<std::size_t>(counted, 1)) / c.force_scale;
   if (c.pressure_controlled) {
-    const Vec3 stress = diagonal(measured_stress(packing));
+    const StressTensor3 tensor = measured_stress(packing);
+    const Vec3 stress = diagonal(tensor);
     for (std::size_t a = 0; a < 3; ++a)
       if (imposed[a])
         c.pressure_error = largest_of(c.pressure_error, std::abs(stress.c[a] - *imposed[a]) / c.force_scale);
+    if (imposed.shear)
+      c.pressure_error = largest_of(c.pressure_error, std::abs(shear_of(tensor) - *imposed.shear) / c.force_scale);
   }
   c.equilibrated = worst_criterion(c).ratio < 1;
   return c;

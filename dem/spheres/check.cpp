@@ -16,7 +16,8 @@ constexpr double kLargestOverlap = 0.1;  // [smallest diameter] static overlap t
 // F1 [F0] of a stage; a pressure acts on the cross-section of the largest grain.
 double largest_force(const Scene& scene, const StageScene& stage) {
   const double diameter = scene.sphere_grains.file.empty() ? scene.sphere_grains.diameter_max : 1.0;
-  double pressure = std::abs(largest_stress(imposed_stress<3>(stage)).value_or(0));
+  double pressure =
+      std::max(std::abs(largest_stress(imposed_stress<3>(stage)).value_or(0)), std::abs(stage.stress_12.value_or(0)));
   for (const double p : stage.pressures) pressure = std::max(pressure, p);
   return std::max(scene.sphere_law.attraction, pressure * diameter * diameter);
 }

@@ -20,11 +20,13 @@ constexpr double kMostOverlap = 0.5;  // [R_i + R_j]
 template class NeighbourLists<SpherePairs>;
 
 void SphereEngine::choose_kernels() {
+  using spheres::Flow;
   using spheres::Tally;
   const bool rolls = law_.rolling_friction > 0;
   rotates_ = law_.friction > 0 || rolls || (law_.wall_friction > 0 && !walls_.empty());
-  force_kernel_ = spheres::select_kernel(law_, free_cell_ ? Tally::stress : Tally::nothing, isa_, unlike_);
-  motion_kernel_ = select_motion({rotates_, free_cell_, rolls}, isa_);
+  force_kernel_ = spheres::select_kernel(law_, free_cell_ ? Tally::stress : Tally::nothing, isa_, unlike_,
+                                         shears_ ? Flow::shear : Flow::stretch);
+  motion_kernel_ = select_motion({rotates_, free_cell_, rolls, shears_}, isa_);
 }
 
 void SphereEngine::start_half_steps() {
@@ -34,6 +36,7 @@ void SphereEngine::start_half_steps() {
     bodies_.set_half_velocity(k, bodies_.half_velocity(k) - 0.5 * dt_ * c.inverse_mass * bodies_.force(k));
     bodies_.set_half_spin(k, bodies_.half_spin(k) - 0.5 * dt_ * c.inverse_inertia * bodies_.torque(k));
     for (std::size_t a = 0; a < 3; ++a) motion_tally_.kinetic[a] += c.mass * v.c[a] * v.c[a];
+    motion_tally_.shear_kinetic += c.mass * v[0] * v[1];
   }
 }
 
@@ -48,13 +51,16 @@ Advance SphereEngine::advance(const MotionStep<3>& step, double) {
   for (const SphereMotionTally& t : motion_tallies_) {
     motion_tally_.largest_speed_squared = std::max(motion_tally_.largest_speed_squared, t.largest_speed_squared);
     for (std::size_t a = 0; a < 3; ++a) motion_tally_.kinetic[a] += t.kinetic[a];
+    motion_tally_.shear_kinetic += t.shear_kinetic;
   }
+  if (step.turns != 0) lists_.turn(step.turns);
   double speed = std::sqrt(motion_tally_.largest_speed_squared), affine = 0;
   for (SphereWall& w : walls_) {
     move_wall(w, dt_);
     speed = std::max(speed, norm(w.velocity));
   }
   for (const double scale : step.scale) affine = std::max(affine, std::abs(scale - 1));
+  affine += std::abs(step.shear);
   const double move = dt_ * speed;
   // Listed neighbours are nearer than two diameters and the range; the first factor covers the rescaling of the
   // peculiar move, and the rounding of travels summed over many steps.
@@ -101,6 +107,7 @@ void SphereEngine::compute_forces(const Cell& cell, const CellFlow<3>& flow, dou
   in.tangential_ratio = unit.tangential / unit.normal;
   in.time_step = time_step;
   in.flow_half = flow.half, in.flow_now = flow.now;
+  in.shear_half = flow.shear_half, in.shear_now = flow.shear_now;
   for (std::uint8_t code = 0; code < kImages<3> && cell; ++code) {
     const Vec3 offset = cell->offset(image_shift<3>(code));
     for (std::size_t a = 0; a < 3; ++a) in.offset[a][code] = offset.c[a];
@@ -142,7 +149,9 @@ void SphereEngine::add_wall_loads(double time_step) {
   });
 }
 
-StressSums<3> SphereEngine::sums() const { return {motion_tally_.kinetic, force_tally_.virial}; }
+StressSums<3> SphereEngine::sums() const {
+  return {motion_tally_.kinetic, force_tally_.virial, motion_tally_.shear_kinetic, force_tally_.shear_virial};
+}
 
 void SphereEngine::set_law(const SphereLaw& law, Springs springs) {
   if (law.attraction > 0 && law.attraction_range > (law_.attraction > 0 ? law_.attraction_range : 0.0))

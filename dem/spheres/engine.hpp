@@ -21,6 +21,7 @@ class SphereEngine {
  public:
   using Lists = NeighbourLists<SpherePairs>;
   using Cell = std::optional<PeriodicCell<3>>;
+  static constexpr bool kShears = true;  // with the cell
   static constexpr const char* kListAdvice = "use more grains (grains.count), or lower stage.pressure or step.fraction";
 
   // Throws InputError: energies are asked for, grains that are parts of a container, walls in a cell that moves.
@@ -91,7 +92,7 @@ class SphereEngine {
   SphereLaw law_;
   double dt_ = 0, gravity_ = 0;  // [T0], [a/T0^2]
   Isa isa_;
-  bool begins_, free_cell_, has_groups_, unlike_, rotates_ = false;
+  bool begins_, free_cell_, shears_, has_groups_, unlike_, rotates_ = false;
   spheres::PairForceKernel force_kernel_ = nullptr;
   SphereMotionKernel motion_kernel_ = nullptr, next_motion_kernel_ = nullptr;  // the next one differs after a restart
   Team team_;

@@ -16,6 +16,7 @@ SphereEngine::SphereEngine(const State<Spheres>& state, const CellControl<3>& co
       isa_(options.isa),
       begins_(state.memory.half_velocity.empty()),
       free_cell_(control.moves()),
+      shears_(control.shears()),
       has_groups_(!state.packing.group.empty()),
       unlike_(!state.packing.kind.empty()),
       team_(std::min(options.threads, Lists::chunk_count(state.packing.bodies.size()))),
@@ -60,7 +61,7 @@ void SphereEngine::load_bodies(const State<Spheres>& state) {
       put_triple(bodies_.moment(k), m.torque[k]);
     }
   }
-  if (!begins_) next_motion_kernel_ = select_motion({rotates_, free_cell_, true}, isa_);
+  if (!begins_) next_motion_kernel_ = select_motion({rotates_, free_cell_, true, shears_}, isa_);
 }
 
 void SphereEngine::load_springs(const State<Spheres>& state) {

@@ -23,12 +23,15 @@ double velocity_prediction(const SphereLaw& law, double stiffest, double time_st
 struct SphereMotionTally {
   double largest_speed_squared = 0;  // [a^2/T0^2] bound on that of u(n+1/2)
   std::array<double, 3> kinetic{};   // sum of m p_a^2 [F0 a], for the stress of a free cell
+  double shear_kinetic = 0;          // sum of m p_1 p_2, of one that shears
 };
 
-// Which instance of the step a scene needs: a frictionless one turns nothing, a fixed cell scales nothing.
+// Which instance of the step a scene needs: a frictionless one turns nothing, a fixed cell scales nothing, and few
+// cells shear.
 struct SphereMotionNeeds {
   bool rotation = true, free_cell = true;
   bool moments = false;  // the store's moments are not all zero
+  bool shear = false;    // of a free cell
 };
 // The store's arrays; raw, so that no inline function of its is compiled for one instruction set.
 struct SphereArrays {

@@ -85,6 +85,11 @@ std::string physical_hash(const State<Spheres>& state) {
   if (state.packing.cell) digest.add(state.packing.cell->length);
   digest.add(state.cell_motion.reference_length);
   digest.add(state.cell_motion.strain_rate);
+  const double tilt = state.packing.cell ? state.packing.cell->tilt : 0;
+  if (tilt != 0 || state.cell_motion.shear_strain_rate != 0) {
+    digest.add(std::string_view("tilt"));
+    digest.add(tilt), digest.add(state.cell_motion.shear_strain_rate);
+  }
 
   const Bodies<3>& b = state.packing.bodies;
   std::vector<std::size_t> order(b.size());

@@ -15,6 +15,7 @@
 #include "dem/scene/text.hpp"
 #include "dem/solver/random.hpp"
 #include "dem/spheres/time_step.hpp"
+#include "dem/state/lower_tilt.hpp"
 #include "dem/state/touching.hpp"
 
 namespace isostat {
@@ -121,6 +122,7 @@ State<Spheres> state_from_file(const Scene& scene, std::uint64_t seed) {
   Packing<3>& packing = state.packing;
   if (packing.bodies.size() == 0) throw InputError(path, 0, "grains.file", path, "it holds no grain");
   if (!packing.cell) refuse_without_cell(scene, path);
+  lower_tilt(packing);
   if (!file.links_given) packing.links.clear();
   weigh(state.packing, densities_of(scene.sphere_grains), file.densities_given);
   const Bodies<3>& b = packing.bodies;

@@ -67,7 +67,6 @@ std::optional<StateFault> cell_fault(const std::optional<PeriodicCell<D>>& cell,
   for (int k = 0; k < D; ++k)
     if (!(cell->length[k] > 0) || !std::isfinite(cell->length[k]))
       return StateFault{group + "/box/edges", "an edge is not positive and finite"};
-  if (D == 3 && cell->tilt != 0) return StateFault{group + "/box/tilt", "only a cell of the plane tilts"};
   if (!std::isfinite(cell->tilt)) return StateFault{group + "/box/tilt", "is not a finite number"};
   return std::nullopt;
 }

@@ -46,7 +46,8 @@ class TriangleParser {
       else if (f[0] == "beam")
         beam_lines_.push_back({line, f});
       else if (f[0] == "tilt")
-        fault(line, "tilt", f.size() > 1 ? f[1] : "", "the cell of triangles stands upright; only one of disks tilts");
+        fault(line, "tilt", f.size() > 1 ? f[1] : "",
+              "the cell of triangles stands upright; only one of disks or spheres tilts");
       else
         fault(line, "", f[0],
               f[0] == "grain" || f[0] == "contact"

@@ -124,6 +124,8 @@ std::size_t wall_triangles(const Grains& g) {
 std::optional<StateFault> packing_fault(const TrianglePacking& p) {
   if (auto f = bodies_fault(p.bodies, kTriangles)) return f;
   if (auto f = cell_fault(p.cell, kTriangles)) return f;
+  if (p.cell && p.cell->tilt != 0)
+    return StateFault{std::string(kTriangles) + "/box/tilt", "the cell of triangles stands upright"};
   if (auto f = check_triangles(p)) return f;
   if (auto f = check_grains(p.grains, p.bodies.size())) return f;
   if (auto f = check_beams(p)) return f;

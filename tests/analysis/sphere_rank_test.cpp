@@ -55,6 +55,7 @@ TEST(SphereRank, EqualsRationalElimination) {
     o.jitter = trial % 5 < 2 ? 0.0 : 0.4;
     o.equal_radii = trial % 7 == 0;
     if (trial % 3 == 0) o.distant = o.sliding = o.rolling_yielded = o.both_yielded = 0.08;
+    o.tilt = trial % 4 == 0 ? 0.375 + 0.5 * (trial % 3) : 0.0;
     o.seed = static_cast<std::uint64_t>(trial) + 1;
     const Packing<3> p = random_spheres(o);
     SCOPED_TRACE(trial);

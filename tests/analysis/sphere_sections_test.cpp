@@ -151,11 +151,11 @@ TEST(SphereSections, PercolationKnowsThreeAxes) {
 }
 
 // All pairs and images, counted one by one.
-TEST(RadialDistribution, EqualsAllPairs) {
+void expect_all_pairs(double tilt, double r_max) {
   RandomSpheres o;
-  o.size = {6, 5, 4};
+  o.size = {6, 5, 4}, o.tilt = tilt;
   const Packing<3> p = random_spheres(o);
-  const double r_max = 2, bin = 0.25;
+  const double bin = 0.25;
   const RadialDistribution found = radial_distribution(p, r_max, bin);
   std::vector<double> pairs(8, 0);
   for (std::size_t i = 0; i < p.bodies.size(); ++i)
@@ -165,12 +165,17 @@ TEST(RadialDistribution, EqualsAllPairs) {
       if (norm(d) < r_max) pairs[static_cast<std::size_t>(norm(d) / bin)] += 1;
     }
   const double n = static_cast<double>(p.bodies.size()), volume = p.cell->measure();
-  ASSERT_EQ(found.g.size(), 8u);
-  for (std::size_t k = 0; k < 8; ++k) {
+  ASSERT_EQ(found.g.size(), static_cast<std::size_t>(r_max / bin));
+  for (std::size_t k = 0; k < found.g.size(); ++k) {
     const double low = static_cast<double>(k) * bin, high = low + bin;
     const double shell = 4.0 / 3.0 * M_PI * (std::pow(high, 3) - std::pow(low, 3));
     EXPECT_NEAR(found.g[k], pairs[k] / (0.5 * n * (n - 1) / volume * shell), 1e-9);
   }
+}
+
+TEST(RadialDistribution, EqualsAllPairs) {
+  expect_all_pairs(0, 2);
+  for (const double tilt : {1.75, -3.0, 2.5, 8.0}) expect_all_pairs(tilt, tilt > 5 ? 1.5 : 2);
 }
 
 }  // namespace

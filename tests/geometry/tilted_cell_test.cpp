@@ -66,6 +66,31 @@ TEST(PeriodicCell, FractionsPointsAndImagesOfATiltedCell) {
   }
 }
 
+// In space the third edge stands upright: nothing but its own coordinate sees it.
+TEST(PeriodicCell, OfATiltedCellInSpace) {
+  std::mt19937_64 random(6);
+  std::uniform_real_distribution<double> anywhere(-9, 9), edge(0.5, 4);
+  for (int k = 0; k < 2000; ++k) {
+    const Vec3 length{{edge(random), edge(random), edge(random)}};
+    const PeriodicCell<3> cell{length, anywhere(random)};
+    const PeriodicCell<2> base{{{length[0], length[1]}}, cell.tilt};
+    const Vec3 r{{anywhere(random), anywhere(random), anywhere(random)}};
+    const Vec2 flat{{r[0], r[1]}};
+    EXPECT_LT(norm(cell.point(cell.fractions(r)) - r), 1e-13 * (9 + std::abs(cell.tilt)));
+    const Vec3 home = cell.wrap(r);
+    EXPECT_EQ((Vec2{{home[0], home[1]}}), base.wrap(flat));
+    EXPECT_TRUE(home[2] >= 0 && home[2] < length[2]);
+    const Vec3 near = r + cell.offset(cell.nearest_image(r));
+    double best = INFINITY;  // among all that can be
+    const Vec2 nearest = flat + base.offset(base.nearest_image(flat));
+    for (int n = -25; n <= 25; ++n) best = std::min(best, std::hypot(norm(nearest), r[2] + n * length[2]));
+    EXPECT_NEAR(norm(near), best, 1e-12);
+    EXPECT_EQ(cell.spacing()[0], base.spacing()[0]);
+    for (int a = 1; a < 3; ++a) EXPECT_EQ(cell.spacing()[a], length[a]);
+    EXPECT_EQ(cell.measure(), length[0] * length[1] * length[2]);
+  }
+}
+
 TEST(CellGrid, NeighboursOfATiltedCellLieInAdjacentColumns) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> unit(0, 1);

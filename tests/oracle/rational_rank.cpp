@@ -48,6 +48,7 @@ std::int64_t rational_rank(const Packing<2>& p, NetworkLaw law, bool cell_free) 
     for (int k = 0; k < 2; ++k) {
       d[k] = mpq_class(p.bodies.position[j][k]) - mpq_class(p.bodies.position[i][k]);
       if (p.cell) d[k] += mpq_class(p.cell->length[k]) * l.shift[static_cast<std::size_t>(k)];
+      if (p.cell && k == 0) d[0] += mpq_class(p.cell->tilt) * l.shift[1];
     }
     const auto row_along = [&](const mpq_class& nx, const mpq_class& ny) {
       Row row;
@@ -96,6 +97,7 @@ std::int64_t rational_rank(const Packing<3>& p, NetworkLaw law, bool cell_free) 
     for (int k = 0; k < 3; ++k) {
       d[k] = mpq_class(p.bodies.position[j][k]) - mpq_class(p.bodies.position[i][k]);
       if (p.cell) d[k] += mpq_class(p.cell->length[k]) * l.shift[static_cast<std::size_t>(k)];
+      if (p.cell && k == 0) d[0] += mpq_class(p.cell->tilt) * l.shift[1];
     }
     const mpq_class ri(p.bodies.radius[i]), rj(p.bodies.radius[j]);
     const bool sticks = friction && (l.kind == LinkKind::closed || l.kind == LinkKind::rolling_yielded);

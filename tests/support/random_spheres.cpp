@@ -23,7 +23,8 @@ Packing<3> random_spheres(const RandomSpheres& o) {
   std::uniform_real_distribution<> unit(0.0, 1.0);
   Packing<3> p;
   const auto [nx, ny, nz] = o.size;
-  if (o.periodic) p.cell = PeriodicCell<3>{{static_cast<double>(nx), static_cast<double>(ny), static_cast<double>(nz)}};
+  if (o.periodic)
+    p.cell = PeriodicCell<3>{{static_cast<double>(nx), static_cast<double>(ny), static_cast<double>(nz)}, o.tilt};
   p.bodies.resize(idx(nx) * idx(ny) * idx(nz));
   const auto index = [&](int x, int y, int z) { return (z * ny + y) * nx + x; };
   for (int z = 0; z < nz; ++z)

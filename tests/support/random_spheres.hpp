@@ -14,6 +14,7 @@ struct RandomSpheres {
   double coordination = 6;
   bool periodic = true;
   double jitter = 0.3;  // of the lattice constant 1; 0: special positions
+  double tilt = 0;      // of the second edge along the first; bonds across it are as long as they become
   bool equal_radii = false;
   double distant = 0, sliding = 0, rolling_yielded = 0, both_yielded = 0;  // fractions of the links
   std::uint64_t seed = 1;

@@ -293,6 +293,10 @@ struct Fixture<Spheres> {
       v.control.inertia = 0.3 * oracle::total_mass(v.state);
       if (law.rolling_friction > 0) ramped(v.control, v.state);
     }
+    if (room == "sheared cell") {  // so fast that its tilt is lowered on the way
+      v.control.stress[1] = 100, v.control.shear_rate = 8, v.control.max_strain_rate = 2;
+      v.control.inertia = 0.3 * oracle::total_mass(v.state);
+    }
     if (room == "walls") enclose(v.state.packing);
     return v;
   }
@@ -323,21 +327,23 @@ struct Fixture<Spheres> {
     for (std::size_t k = 0; k < p.group.size(); ++k) p.group[k] = static_cast<std::int32_t>(k % 2);
   }
 
-  // Every law that a kernel exists for, in a fixed cell and without one; one of each normal law in a cell that is
-  // compressed fast, and between walls that move.
+  // Every law that a kernel exists for, in a fixed cell, in one that is sheared, and without one; one of each normal
+  // law in a cell that is compressed fast, and between walls that move.
   static std::vector<Variant<Spheres>> variants(int count) {
     std::vector<Variant<Spheres>> list;
-    for (const char* room : {"fixed cell", "no cell"})
+    for (const char* room : {"fixed cell", "sheared cell", "no cell"})
       for (const SphereLaw& law : oracle::sphere_laws()) list.push_back(variant(law, count, room));
     for (const char* room : {"free cell", "walls"})
       for (const NormalForce normal : {NormalForce::hertz, NormalForce::linear})
         list.push_back(variant(oracle::soft_sphere_law(normal), count, room));
-    for (const char* room : {"fixed cell", "no cell", "free cell", "walls"}) list.push_back(unlike(count, room));
+    for (const char* room : {"fixed cell", "sheared cell", "no cell", "free cell", "walls"})
+      list.push_back(unlike(count, room));
     return list;
   }
   static std::vector<Variant<Spheres>> large(int count) {
-    return {variant(oracle::soft_sphere_law(), count, "free cell"), variant(oracle::soft_sphere_law(), count, "walls"),
-            unlike(count, "free cell")};
+    return {variant(oracle::soft_sphere_law(), count, "free cell"),
+            variant(oracle::soft_sphere_law(), count, "sheared cell"),
+            variant(oracle::soft_sphere_law(), count, "walls"), unlike(count, "free cell")};
   }
   static int chunks(const State<Spheres>& s) { return SphereEngine::Lists::chunk_count(s.packing.bodies.size()); }
   static bool is_lively(const Variant<Spheres>&, const State<Spheres>& end) {

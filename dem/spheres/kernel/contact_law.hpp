@@ -64,4 +64,11 @@ const KernelTable& scalar_kernels();
 const KernelTable& avx2_kernels();
 const KernelTable& avx512_kernels();
 
+// Of a cell that shears, which measures the stress: kernels of their own, so that a rectangular cell pays nothing.
+using ShearKernelTable = std::array<PairForceKernel, Supported::compositions.size()>;
+
+const ShearKernelTable& scalar_shear_kernels();
+const ShearKernelTable& avx2_shear_kernels();
+const ShearKernelTable& avx512_shear_kernels();
+
 }  // namespace isostat::spheres

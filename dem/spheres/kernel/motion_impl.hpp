@@ -16,26 +16,33 @@ Quad quad_at(const double* p) { return *reinterpret_cast<const UnalignedQuad*>(p
 void put(double* p, Quad q) { *reinterpret_cast<UnalignedQuad*>(p) = q; }
 Quad quad(const std::array<double, 3>& a) { return Quad{a[0], a[1], a[2], 0}; }
 
-template <bool kRotation, bool kFreeCell, bool kMoments>
+template <bool kRotation, bool kFreeCell, bool kMoments, bool kShear = false>
 SphereMotionTally advance(const SphereArrays& bodies, std::size_t begin, std::size_t end, const MotionStep<3>& step,
                           double prediction, double gravity) {
   const double dt = step.time_step, ahead = prediction * dt;
   const Quad keep = quad(step.keep), scale = quad(step.scale);
   const Quad drift = dt * quad(step.half_scale), zero = {0, 0, 0, 0};
   Quad fastest = zero, kinetic = zero;
+  [[maybe_unused]] double shear_kinetic = 0;
   double *row = bodies.rows + begin * kRowWidth, *load = bodies.loads + begin * kLoadWidth;
   double* spin = bodies.spins + begin * kSpinWidth;
   [[maybe_unused]] double* moment = bodies.moments + begin * kSpinWidth;
   for (std::size_t k = begin; k < end; ++k, row += kRowWidth, load += kLoadWidth, spin += kSpinWidth) {
     const SphereConstants& c = bodies.constants[k];
     const Quad acceleration = quad_at(load + LoadSlot::force) * c.inverse_mass;
-    const Quad velocity = (quad_at(row + Slot::half_velocity) + dt * acceleration) * keep;
+    const Quad pushed = quad_at(row + Slot::half_velocity) + dt * acceleration;
+    Quad velocity = pushed * keep;
+    if constexpr (kShear) velocity[0] -= step.shear_coupling * pushed[1];
     const Quad predicted = velocity + ahead * acceleration;
     const Quad before = quad_at(row + Slot::position);
     Quad position;
     if constexpr (kFreeCell) {
       position = before * scale + velocity * drift;
       kinetic += c.mass * (predicted * predicted);
+      if constexpr (kShear) {
+        position[0] += step.shear * before[1] + dt * step.half_shear * velocity[1];
+        shear_kinetic += c.mass * (predicted[0] * predicted[1]);
+      }
     } else {
       position = before + dt * velocity;
     }
@@ -60,7 +67,7 @@ SphereMotionTally advance(const SphereArrays& bodies, std::size_t begin, std::si
     const Quad square = velocity * velocity;
     fastest = square > fastest ? square : fastest;
   }
-  return {fastest[0] + fastest[1] + fastest[2], {kinetic[0], kinetic[1], kinetic[2]}};
+  return {fastest[0] + fastest[1] + fastest[2], {kinetic[0], kinetic[1], kinetic[2]}, shear_kinetic};
 }
 
 template <bool kRotation, bool kMoments>
@@ -68,6 +75,10 @@ SphereMotionKernel in_cell(bool free) {
   return free ? advance<kRotation, true, kMoments> : advance<kRotation, false, kMoments>;
 }
 [[maybe_unused]] SphereMotionKernel motion_kernel(SphereMotionNeeds needs) {
+  if (needs.shear) {
+    if (!needs.rotation) return advance<false, true, false, true>;
+    return needs.moments ? advance<true, true, true, true> : advance<true, true, false, true>;
+  }
   if (!needs.rotation) return in_cell<false, false>(needs.free_cell);
   return needs.moments ? in_cell<true, true>(needs.free_cell) : in_cell<true, false>(needs.free_cell);
 }

@@ -29,13 +29,17 @@ std::string supported_compositions() {
   return list;
 }
 
-PairForceKernel select_kernel(const SphereLaw& p, Tally tally, Isa isa, bool unlike) {
+PairForceKernel select_kernel(const SphereLaw& p, Tally tally, Isa isa, bool unlike, Flow flow) {
   const LawComposition wanted = composition(p, unlike);
   const KernelTable& table = isa == Isa::avx512 ? avx512_kernels()
                              : isa == Isa::avx2 ? avx2_kernels()
                                                 : scalar_kernels();
+  const ShearKernelTable& sheared = isa == Isa::avx512 ? avx512_shear_kernels()
+                                    : isa == Isa::avx2 ? avx2_shear_kernels()
+                                                       : scalar_shear_kernels();
   for (std::size_t k = 0; k < table.size(); ++k)
-    if (Supported::compositions[k] == wanted) return table[k][static_cast<std::size_t>(tally)];
+    if (Supported::compositions[k] == wanted)
+      return flow == Flow::shear ? sheared[k] : table[k][static_cast<std::size_t>(tally)];
   throw InputError("scene", 0, "law", words(wanted), "not among the supported laws:\n" + supported_compositions());
 }
 

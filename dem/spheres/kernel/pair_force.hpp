@@ -46,19 +46,26 @@ struct PairForceInput {
   double time_step = 0;               // [T0]
   std::array<double, 3> flow_half{};  // Ldot_a / L_a at the half step [1/T0]; the affine part of a velocity is flow * r
   std::array<double, 3> flow_now{};   // the same, predicted to the full step
+  double shear_half = 0, shear_now = 0;            // d(v_x)/dy of the flow [1/T0]; of a cell that shears
   std::array<std::array<double, 27>, 3> offset{};  // [a] of the image by its code (s1 + 1) + 3 (s2 + 1) + 9 (s3 + 1)
 };
 
 struct PairForceTally {
   std::array<double, 3> virial{};  // sum of F_a r_a over pairs, repulsion positive [F0 a]
+  double shear_virial = 0;         // sum of F_1 r_2, of a cell that shears
   PairForceTally& operator+=(const PairForceTally& o) {
     for (std::size_t k = 0; k < 3; ++k) virial[k] += o.virial[k];
+    shear_virial += o.shear_virial;
     return *this;
   }
 };
 
 // A fixed cell measures no stress.
 enum class Tally { nothing, stress };
+
+// How the cell carries its bodies: along its edges, each by itself, or sheared as well. A cell that does not move, and
+// measures nothing, is of the first kind.
+enum class Flow { stretch, shear };
 
 using PairForceKernel = PairForceTally (*)(const PairForceInput&);
 
@@ -70,8 +77,9 @@ struct LawComposition {
 LawComposition composition(const SphereLaw& law, bool unlike = false);
 
 // The kernel for a law, of bodies of one kind or of several; throws InputError with the list of supported compositions
-// if there is none.
-PairForceKernel select_kernel(const SphereLaw& law, Tally tally, Isa isa, bool unlike = false);
+// if there is none. Of a cell that shears it always measures the stress.
+PairForceKernel select_kernel(const SphereLaw& law, Tally tally, Isa isa, bool unlike = false,
+                              Flow flow = Flow::stretch);
 std::string supported_compositions();  // one a line
 
 }  // namespace isostat::spheres

@@ -1,5 +1,6 @@
-// The pair force kernel of spheres: one source for every instruction set, law and tally. Included only by the
-// translation units dem/spheres/kernel/kernels_*.cpp, each compiled for its own instruction set.
+// The pair force kernel of spheres: one source for every instruction set, law, tally and flow. Included only by the
+// translation units dem/spheres/kernel/kernels_*.cpp and shear_kernels_*.cpp, each compiled for its own instruction
+// set.
 #pragma once
 #include "dem/spheres/kernel/contact_law.hpp"
 #include "dem/spheres/kernel/pair_force.hpp"
@@ -71,13 +72,14 @@ ISOSTAT_INLINE Real3<V> slip_rate(const PairDifference<V>& d, const Real3<V>& n,
   return without_normal<V>(slip, n, dot_3d<V>(slip, n));
 }
 
-template <class V, class Law, bool kStress, bool kImages>
+template <class V, class Law, bool kStress, bool kImages, Flow kFlow>
 PairForceTally pair_forces(const PairForceInput& input) {
   const PairForceInput in = input;  // a copy that no store can alias: its fields stay in registers
   const SphereLaw& law = in.law;
   constexpr bool kTurns = Law::Friction::acts || Law::Rolling::acts;
   const V dt(in.time_step), half_step(0.5 * in.time_step), zero(0.0), one(1.0);
   Real3<V> virial{zero, zero, zero};
+  [[maybe_unused]] V shear_virial(0.0);
 
   // The loads of a batch are added while the next one is under way (dem/disks/kernel/pair_force_impl.hpp).
   Real3<V> late_force{zero, zero, zero}, late_arm{zero, zero, zero}, late_moment{zero, zero, zero};
@@ -100,6 +102,10 @@ PairForceTally pair_forces(const PairForceInput& input) {
         d.velocity[a] = mul_add<V>(V(in.flow_now[a]), d.r[a], d.velocity[a]);
         if constexpr (kTurns) d.half_velocity[a] = mul_add<V>(V(in.flow_half[a]), d.r[a], d.half_velocity[a]);
       }
+    if constexpr (kFlow == Flow::shear) {
+      d.velocity[0] = mul_add<V>(V(in.shear_now), d.r[1], d.velocity[0]);
+      if constexpr (kTurns) d.half_velocity[0] = mul_add<V>(V(in.shear_half), d.r[1], d.half_velocity[0]);
+    }
     const V radius_sum = load<V>(in.pairs.radius_sum + k);
     PairFrame3<V> f = pair_frame<V>(d.r, radius_sum);
     if constexpr (Law::Normal::unlike) face_shells(f, radius_sum);
@@ -174,6 +180,7 @@ PairForceTally pair_forces(const PairForceInput& input) {
     }
     if constexpr (kStress)
       for (std::size_t a = 0; a < 3; ++a) virial[a] = mul_add<V>(force[a], d.r[a], virial[a]);
+    if constexpr (kFlow == Flow::shear) shear_virial = mul_add<V>(force[0], d.r[1], shear_virial);
     late = k, late_force = force;
   }
   add_late();
@@ -181,17 +188,22 @@ PairForceTally pair_forces(const PairForceInput& input) {
   PairForceTally sum;
   if constexpr (kStress)
     for (std::size_t a = 0; a < 3; ++a) sum.virial[a] = reduce(virial[a]);
+  if constexpr (kFlow == Flow::shear) sum.shear_virial = reduce(shear_virial);
   return sum;
 }
 
-template <class V, class Law, bool kStress>
+template <class V, class Law, bool kStress, Flow kFlow = Flow::stretch>
 PairForceTally pair_force_kernel(const PairForceInput& in) {
-  return in.images ? pair_forces<V, Law, kStress, true>(in) : pair_forces<V, Law, kStress, false>(in);
+  return in.images ? pair_forces<V, Law, kStress, true, kFlow>(in) : pair_forces<V, Law, kStress, false, kFlow>(in);
 }
 
 template <class V, class... Law>
 constexpr KernelTable kernel_table(Catalogue<Law...>) {
   return {KernelSet{&pair_force_kernel<V, Law, false>, &pair_force_kernel<V, Law, true>}...};
+}
+template <class V, class... Law>
+constexpr ShearKernelTable shear_kernel_table(Catalogue<Law...>) {
+  return {&pair_force_kernel<V, Law, true, Flow::shear>...};
 }
 
 }  // namespace isostat::spheres

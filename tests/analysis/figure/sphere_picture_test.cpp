@@ -212,6 +212,58 @@ TEST(SpherePicture, EdgesOfTheCell) {
   }
 }
 
+SpherePacking leaning(SpherePacking p, double tilt) {
+  p.cell->tilt = tilt;
+  for (std::size_t i = 0; i < p.bodies.size(); ++i)
+    for (std::size_t j = i + 1; j < p.bodies.size(); ++j) {
+      const Vec3 d = p.bodies.position[j] - p.bodies.position[i];
+      const ImageShift<3> shift = p.cell->nearest_image(d);
+      if (norm(d + p.cell->offset(shift)) < 1.5 * (p.bodies.radius[i] + p.bodies.radius[j]))
+        p.links.push_back(link_of(i, j, 1, {}, shift));
+    }
+  return p;
+}
+
+// The twelve edges of a leaning cell join its corners; faces look where their normals do.
+TEST(SpherePicture, EdgesOfALeaningCell) {
+  for (const double tilt : {1.5, -2.0}) {
+    const SpherePacking p = leaning(disjoint_spheres(7, 200), tilt);
+    const View view = view_from(-60, 20);
+    const SpherePen pen(p, PictureFrame(extent_of(p, view)), {view, depth_range(p, view)});
+    std::array<int, 2> count{};
+    for (const auto& l : recorded(picture(p, view, plain_balls(p))).lines)
+      if (l.group == "cell") ++count[l.stroke.color == kFaint ? 0 : 1];
+    EXPECT_EQ(count, (std::array{3, 9}));
+    const RecordingCanvas top = recorded(picture(p, view_along(2), plain_balls(p)));
+    double along = 0, up = 0, scale = 0;
+    for (const auto& l : top.lines) {
+      if (l.group != "cell") continue;
+      const Vec2 edge = l.points[1] - l.points[0];
+      if (std::abs(edge[1]) < 1e-9)
+        scale = std::abs(edge[0]) / 5;
+      else
+        along = edge[0] * (edge[1] < 0 ? 1 : -1), up = std::abs(edge[1]);
+    }
+    EXPECT_NEAR(along, tilt * scale, 1e-9);
+    EXPECT_NEAR(up, 4 * scale, 1e-9);
+    // Spheres are inside it, and pieces of links as long as their branch vectors.
+    const DepthRange range = depth_range(p, view);
+    for (std::size_t k = 0; k < p.bodies.size(); ++k) {
+      const Vec3 f = p.cell->fractions(pen.place(k) + middle_of(p));
+      for (int a = 0; a < 3; ++a) EXPECT_TRUE(f[a] > -1e-12 && f[a] < 1 + 1e-12);
+      EXPECT_TRUE(view.depth(pen.place(k)) <= range.near && view.depth(pen.place(k)) >= range.far);
+    }
+    ASSERT_GT(p.links.size(), 5u);
+    for (const Link<3>& link : p.links) {
+      double length = 0;
+      for (const auto& [from, to] : pen.pieces(link)) length += norm(to - from);
+      const Vec3 branch = p.bodies.position[static_cast<std::size_t>(link.j)] + p.cell->offset(link.shift) -
+                          p.bodies.position[static_cast<std::size_t>(link.i)];
+      EXPECT_NEAR(length, norm(branch), 1e-12);
+    }
+  }
+}
+
 // A link that leaves the cell is drawn at both of its ends, up to where the spheres touch.
 TEST(SpherePen, CutsLinksAtTheCell) {
   SpherePacking p;
@@ -373,6 +425,50 @@ TEST(SphereSlice, AddsUpToTheVolume) {
         sum += std::numbers::pi * r * r * p.cell->length[axis] / kSlices;
     EXPECT_NEAR(sum, volume, 1e-4 * volume);
   }
+}
+
+// Sections of a leaning cell across z lean with it, across y they do not: branch vectors of the circles are those of
+// the spheres, seen along the axis; and slices add up to the volume.
+TEST(SphereSlice, OfALeaningCell) {
+  const SpherePacking p = leaning(disjoint_spheres(4), 1.75);
+  double volume = 0;
+  for (const double r : p.bodies.radius) volume += 4.0 / 3 * std::numbers::pi * r * r * r;
+  for (const int axis : {1, 2}) {
+    const View view = view_along(axis);
+    const double edge = p.cell->length[axis];
+    constexpr int kSlices = 400;
+    double sum = 0;
+    std::size_t links = 0;
+    for (int n = 0; n < kSlices; ++n) {
+      const double at = (n + 0.5) * edge / kSlices;
+      const SlicedSpheres s = cut(p, {axis, at});
+      const Packing<2>& flat = s.packing;
+      EXPECT_EQ(flat.cell->tilt, axis == 2 ? 1.75 : 0);
+      for (const double r : flat.bodies.radius) sum += std::numbers::pi * r * r * edge / kSlices;
+      // Any plane that is whole cells away shows the same, shifted as its images are.
+      const SlicedSpheres up = cut(p, {axis, at + 3 * edge});
+      ASSERT_EQ(up.sphere, s.sphere);
+      for (std::size_t k = 0; k < s.sphere.size(); ++k)
+        EXPECT_NEAR(up.packing.bodies.position[k][0] - flat.bodies.position[k][0], axis == 1 ? 3 * 1.75 : 0, 1e-9);
+      for (const Link<2>& l : flat.links) {
+        const auto i = static_cast<std::size_t>(l.i), j = static_cast<std::size_t>(l.j);
+        const Vec2 branch = flat.bodies.position[j] + flat.cell->offset(l.shift) - flat.bodies.position[i];
+        bool found = false;
+        for (const Link<3>& whole : p.links) {
+          const auto a = static_cast<std::size_t>(whole.i), b = static_cast<std::size_t>(whole.j);
+          if (a != s.sphere[i] || b != s.sphere[j]) continue;
+          const Vec3 r = p.bodies.position[b] + p.cell->offset(whole.shift) - p.bodies.position[a];
+          found = found || norm(view.flat(r) - branch) < 1e-9;
+        }
+        EXPECT_TRUE(found);
+        ++links;
+      }
+    }
+    EXPECT_NEAR(sum, volume, 1e-4 * volume);
+    EXPECT_GT(links, 100u);
+  }
+  EXPECT_THROW(cut(p, {0, 1}), std::invalid_argument);
+  recorded(picture(p, Slice{2, 1}, grains_content())), recorded(picture(p, Slice{1, 1}, grains_content()));
 }
 
 TEST(SlicePicture, WallsAreLinesAndCircles) {

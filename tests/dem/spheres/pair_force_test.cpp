@@ -1,4 +1,4 @@
-// Every kernel of spheres (law x instruction set x tally x images) against the reference law of
+// Every kernel of spheres (law x instruction set x tally x flow x images) against the reference law of
 // tests/oracle/sphere_reference, on random pairs: bodies shared by several pairs, some pairs in contact and sticking,
 // some sliding, some just formed, some across a gap, some out of reach, padding at the end.
 #include "dem/spheres/kernel/pair_force.hpp"
@@ -38,7 +38,7 @@ struct Fixture {
   std::vector<oracle::SpherePairMoment> pairs;
   int apart = 0;
 
-  Fixture(const SphereLaw& law, bool images, bool flows, std::uint64_t seed) : columns(law) {
+  Fixture(const SphereLaw& law, bool images, bool flows, bool shears, std::uint64_t seed) : columns(law) {
     Random random(seed);
     const auto between = [&](double a, double b) { return a + (b - a) * random.uniform(); };
     const auto vector = [&](double size) {
@@ -52,6 +52,7 @@ struct Fixture {
     const ContactStiffness unit = pair_stiffness(law, 1, 1);
     in.tangential_ratio = unit.tangential / unit.normal;
     if (flows) in.flow_half = {-0.3, 0.2, 0.1}, in.flow_now = {-0.31, 0.19, 0.12};
+    if (shears) in.shear_half = 0.4, in.shear_now = 0.45;
     const Vec3 length{{7, 9, 8}};
     for (std::uint8_t c = 0; c < 27; ++c)
       for (std::size_t a = 0; a < 3; ++a) in.offset[a][c] = image_shift<3>(c)[a] * length.c[a];
@@ -89,6 +90,7 @@ struct Fixture {
       p.velocity = triple_at(bodies.row(b) + Slot::velocity) - triple_at(bodies.row(a) + Slot::velocity);
       for (int c = 0; c < 3; ++c)
         p.half_velocity[c] += in.flow_half[c] * p.r[c], p.velocity[c] += in.flow_now[c] * p.r[c];
+      p.half_velocity[0] += in.shear_half * p.r[1], p.velocity[0] += in.shear_now * p.r[1];
       p.half_spin_i = bodies.half_spin(a), p.half_spin_j = bodies.half_spin(b);
       p.spin_i = (1 / p.radius_i) * triple_at(bodies.row(a) + Slot::surface);
       p.spin_j = (1 / p.radius_j) * triple_at(bodies.row(b) + Slot::surface);
@@ -119,11 +121,12 @@ void expect_near(const Vec3& a, const Vec3& b, double tolerance) {
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(a[k], b[k], tolerance);
 }
 
-void compare(const SphereLaw& law, Isa isa, Tally tally, bool images) {
-  Fixture f(law, images, tally == Tally::stress, 7);
+void compare(const SphereLaw& law, Isa isa, Tally tally, bool images, Flow flow) {
+  Fixture f(law, images, tally == Tally::stress, flow == Flow::shear, 7);
   const std::size_t n = 2 * kPairs;
   std::vector<Vec3> force(n), torque(n);
   Vec3 virial{};
+  double shear_virial = 0;
   double largest = 0, largest_moment = 0;
   std::vector<oracle::SpherePairResponse> expected;
   int sliding = 0, sticking = 0;
@@ -132,6 +135,7 @@ void compare(const SphereLaw& law, Isa isa, Tally tally, bool images) {
     force[f.second[k]] += response.force, force[f.first[k]] -= response.force;
     torque[f.second[k]] += response.moment_j, torque[f.first[k]] += response.moment_i;
     for (int a = 0; a < 3; ++a) virial[a] += response.force[a] * f.pairs[k].r[a];
+    shear_virial += response.force[0] * f.pairs[k].r[1];
     largest = std::max(largest, norm(response.force)), largest_moment = std::max(largest_moment, norm(response.moment));
     if (response.gap < 0 && law.friction > 0) {
       const double limit =
@@ -140,7 +144,7 @@ void compare(const SphereLaw& law, Isa isa, Tally tally, bool images) {
     }
     expected.push_back(response);
   }
-  const PairForceTally sum = select_kernel(law, tally, isa)(f.in);
+  const PairForceTally sum = select_kernel(law, tally, isa, false, flow)(f.in);
   const double tolerance = kRounding * largest;
   for (std::size_t k = 0; k < kPairs; ++k) {
     const SphereHistory h = f.columns.history(k);
@@ -155,6 +159,7 @@ void compare(const SphereLaw& law, Isa isa, Tally tally, bool images) {
   if (tally == Tally::stress) {
     for (std::size_t a = 0; a < 3; ++a) EXPECT_NEAR(sum.virial[a], virial.c[a], 1e-11 * largest);
   }
+  EXPECT_NEAR(sum.shear_virial, flow == Flow::shear ? shear_virial : 0.0, 1e-11 * largest);
   EXPECT_GT(f.apart, 20);
   if (law.friction > 0) {
     EXPECT_GT(sliding, 20);
@@ -165,10 +170,12 @@ void compare(const SphereLaw& law, Isa isa, Tally tally, bool images) {
 TEST(SpherePairForce, IsTheLawForEveryKernel) {
   for (const Isa isa : machine_isas())
     for (const SphereLaw& law : oracle::sphere_laws())
-      for (const Tally tally : {Tally::nothing, Tally::stress})
+      for (const auto& [tally, flow] : {std::pair(Tally::nothing, Flow::stretch),
+                                        std::pair(Tally::stress, Flow::stretch), std::pair(Tally::stress, Flow::shear)})
         for (const bool images : {false, true}) {
-          SCOPED_TRACE(std::string(name(isa)) + " " + oracle::words(law) + (images ? " images" : ""));
-          compare(law, isa, tally, images);
+          SCOPED_TRACE(std::string(name(isa)) + " " + oracle::words(law) + (images ? " images" : "") +
+                       (flow == Flow::shear ? " shear" : ""));
+          compare(law, isa, tally, images, flow);
         }
 }
 
