@@ -69,6 +69,19 @@ TEST_F(Pictures, OfResults) {
     expect_approved("plot " + in_folder("r.json") + " --what " + what, "plot-" + what + ".svg");
   expect_approved("plot " + in_folder("s.json") + " --what scattering", "plot-scattering.svg");
   expect_approved("plot " + in_folder("p.json") + " --what pores", "plot-pores.svg");
+  ASSERT_EQ(
+      run("analyze " ISOSTAT_DATA "/clusters/dense_1400.net --law frictionless --only modes --density-of-states 40 "
+          "--random-vectors 4 --json " +
+          in_folder("d.json"))
+          .code,
+      0);
+  expect_approved("plot " + in_folder("d.json") + " --what density-of-states", "plot-density-of-states.svg");
+  ASSERT_EQ(run("analyze " ISOSTAT_DATA "/clusters/periodic_triangular4.net --only modes --modes all "
+                "--density-of-states 20 --json " +
+                in_folder("e.json"))
+                .code,
+            0);
+  expect_approved("plot " + in_folder("e.json"), "plot-all-modes.svg");
   expect_approved("plot " + golden("../soft-particle.json") + " --what law-fit", "plot-law-fit.svg");
   expect_approved("plot " + golden("series.csv") + " --what series", "plot-series.svg");
   expect_approved("plot " + golden("bench.csv") + " --what bench", "plot-bench.svg");
