@@ -53,6 +53,13 @@ TEST_F(Pictures, OfAPacking) {
   expect_approved("draw " ISOSTAT_DATA "/clusters/double_triangle.net --what clusters", "clusters.svg");
 }
 
+// What crosses the slanted edges of the cell is drawn at both of them.
+TEST_F(Pictures, OfATiltedCell) {
+  const std::string leaning = golden("leaning.csv");
+  expect_approved("draw " + leaning + " --what forces", "leaning-forces.svg");
+  expect_approved("draw " + leaning + " --what pores", "leaning-pores.svg");
+}
+
 TEST_F(Pictures, OfResults) {
   ASSERT_EQ(run("analyze " + packing() + " --only counts,forces --json " + in_folder("r.json")).code, 0);
   ASSERT_EQ(
