@@ -105,13 +105,29 @@ Json edges_of(const Lattice& l) {
   for (long k = l.first; k <= l.last + 1; ++k) edges.push_back(double(k) * l.width);
   return edges;
 }
-// The densities of a histogram with zeros in the bins of `to` that it lacks.
+// What a histogram says of its bins, with `empty` in those of `to` that it lacks.
 Json padded(const Json& density, const Json& edges, const Lattice& to, const Json& empty) {
   const Lattice from = *lattice_of(edges);
   Json out = Json::array();
   for (long k = to.first; k <= to.last; ++k)
     out.push_back(k < from.first || k > from.last ? empty : density.at(static_cast<std::size_t>(k - from.first)));
   return out;
+}
+
+// Further numbers of each bin (an error, a count): undefined where a sample has no bin.
+void merge_columns(Json& merged, const Values& histograms) {
+  const auto common = lattice_of(merged["edges"]);
+  for (const auto& [key, unused] : histograms.front()->items()) {
+    if (key == "edges" || key == "density") continue;
+    std::vector<Json> columns;
+    for (const Json* h : histograms)
+      if (h->contains(key) && h->at(key).size() + 1 == h->at("edges").size())
+        columns.push_back(common ? padded(h->at(key), h->at("edges"), *common, Json()) : h->at(key));
+    if (columns.size() != histograms.size()) continue;
+    Values values;
+    for (const Json& c : columns) values.push_back(&c);
+    merged[key] = merge(key, values);
+  }
 }
 
 // {"edges", "density"} in one variable or in two (edges a pair, density[x][y]); none if the bins cannot be aligned.
@@ -145,7 +161,9 @@ std::optional<Json> merge_histograms(const Values& values) {
   }
   Values densities;
   for (const Json& d : aligned) densities.push_back(&d);
-  return Json{{"edges", common_edges}, {"density", merge("density", densities)}};
+  Json merged{{"edges", common_edges}, {"density", merge("density", densities)}};
+  if (!planar) merge_columns(merged, some);
+  return merged;
 }
 
 Json merge_arrays(const std::string& key, const Values& values) {

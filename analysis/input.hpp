@@ -10,6 +10,7 @@
 #include "analysis/link_network.hpp"
 #include "analysis/network/force_measure.hpp"
 #include "analysis/sphere_network.hpp"
+#include "analysis/stiffness/density_options.hpp"
 #include "analysis/structure/fit_constant.hpp"
 #include "dem/disks/disks.hpp"
 #include "dem/spheres/spheres.hpp"
@@ -31,7 +32,8 @@ struct AnalysisOptions {
   bool prestress = false;                  // --prestress: modes of the full tangent, too
   bool near_null = false;                  // --near-null: near-null singular values of G whatever its size
   int most_vectors = 20;                   // --vectors: of each basis of the section bases
-  std::optional<int> modes = 20;           // --modes: lowest vibration modes; none: all of them
+  std::optional<int> modes = 20;           // --modes: lowest vibration modes; 0: not asked for; none: all
+  std::optional<DensityOptions> density;   // --density-of-states; none: not asked for
   std::optional<double> bin_width;         // --bins [F1; of N_over_mean the mean]: of histograms; none: 0.02, and 0.1
   std::vector<double> stiffness;           // --stiffness: K_N, K_T, K_R of a packing without a law, as given
   double k_max = 0;                        // --k-max [1/length]; 0: the section's default

@@ -163,8 +163,9 @@ std::string histogram_csv(const Json& h) {
         add(c[0], e[0][x]), add(c[1], e[0][x + 1]), add(c[2], e[1][y]), add(c[3], e[1][y + 1]),
             add(c[4], h["density"][x][y]);
   } else {
-    c = {{"left", {}}, {"right", {}}, {"density", {}}};
-    for (std::size_t k = 0; k + 1 < e.size(); ++k) add(c[0], e[k]), add(c[1], e[k + 1]), add(c[2], h["density"][k]);
+    c = {{"left", {e.begin(), e.end() - 1}}, {"right", {e.begin() + 1, e.end()}}};
+    for (const auto& [key, v] : h.items())  // the density, and what else is told of each bin
+      if (key != "edges" && v.is_array() && v.size() + 1 == e.size()) c.push_back({key, {v.begin(), v.end()}});
   }
   return columns_csv(c);
 }

@@ -69,6 +69,21 @@ int modes_of(const Arguments& arguments) {
   }
 }
 
+std::optional<DensityOptions> density_of(const Arguments& arguments) {
+  const auto bins = arguments.integer("--density-of-states", 1, 10000);
+  const auto moments = arguments.integer("--moments", 16, 1000000),
+             vectors = arguments.integer("--random-vectors", 1, 10000);
+  for (const char* option : {"--moments", "--random-vectors"})
+    if (arguments.has(option) && !bins)
+      throw InputError("command line", 0, option, *arguments.value(option), "belongs to --density-of-states");
+  if (!bins) return std::nullopt;
+  DensityOptions density;
+  density.bins = static_cast<int>(*bins);
+  density.moments = static_cast<int>(moments.value_or(density.moments));
+  density.vectors = static_cast<int>(vectors.value_or(density.vectors));
+  return density;
+}
+
 std::optional<double> positive(const Arguments& arguments, const char* name) {
   const auto number = arguments.number(name);
   if (number && !(*number > 0)) throw InputError("command line", 0, name, *arguments.value(name), "must be positive");
@@ -98,6 +113,10 @@ AnalysisOptions analysis_options(const Arguments& arguments) {
     options.modes = *text == "all" ? std::nullopt : std::optional<int>(modes_of(arguments));
   if (!options.modes && options.prestress)
     throw InputError("command line", 0, "--modes", "all", "is of the symmetric modes; --prestress takes a number");
+  options.density = density_of(arguments);
+  if (options.density && options.prestress)
+    throw InputError("command line", 0, "--density-of-states", "", "is of the symmetric modes: leave out --prestress");
+  if (options.density && !arguments.has("--modes")) options.modes = 0;
   options.bin_width = positive(arguments, "--bins");
   options.k_max = positive(arguments, "--k-max").value_or(0);
   options.k_window = window(arguments, "--k-window");
@@ -120,12 +139,13 @@ void refuse_options_of_other_sections(const Arguments& arguments, const std::vec
     const char* option;
     std::vector<std::string> sections;
   };
-  static const std::vector<Belongs> all{
-      {"--prestress", {"modes"}},         {"--modes", {"modes"}},       {"--bins", {"forces"}},
-      {"--near-null", {"rigidity"}},      {"--vectors", {"bases"}},     {"--k-window", {"scattering"}},
-      {"--fit-constant", {"scattering"}}, {"--r-window", {"dacf"}},     {"--window-scan", {"scattering", "dacf"}},
-      {"--pore-size", {"pores"}},         {"--pore-window", {"pores"}}, {"--threshold", {"stressed"}},
-      {"--force", {"stressed"}}};
+  static const std::vector<Belongs> all{{"--prestress", {"modes"}},         {"--modes", {"modes"}},
+                                        {"--density-of-states", {"modes"}}, {"--bins", {"forces"}},
+                                        {"--near-null", {"rigidity"}},      {"--vectors", {"bases"}},
+                                        {"--k-window", {"scattering"}},     {"--fit-constant", {"scattering"}},
+                                        {"--r-window", {"dacf"}},           {"--window-scan", {"scattering", "dacf"}},
+                                        {"--pore-size", {"pores"}},         {"--pore-window", {"pores"}},
+                                        {"--threshold", {"stressed"}},      {"--force", {"stressed"}}};
   for (const Belongs& b : all) {
     if (!arguments.has(b.option)) continue;
     const bool named = std::any_of(b.sections.begin(), b.sections.end(), [&](const std::string& section) {

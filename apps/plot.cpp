@@ -114,6 +114,7 @@ int plot_command(int argc, char** argv) {
       {{"-o", "FILE", "the figure; its extension is the format: .svg, .pdf or .png"},
        {"--what", "PLOT",
         "force-histogram, angle, NT, coordination, scattering, correlation, pores, stressed, loops, two-contacts, "
+        "density-of-states, "
         "series, law-fit, bench or study; default: the only one that the file has data for"},
        {"--log", "", "law-fit: logarithmic axes, of the forces against the deformation alone"},
        {"--x", "COLUMN", "of any table: what to plot against; a name's end is enough (friction)"},
@@ -127,11 +128,11 @@ int plot_command(int argc, char** argv) {
       {"RESULT.json|TABLE.csv... -o FILE",
        "Plots results of analyze, lab and study, series of pack, benchmark tables, and columns of any CSV."});
   arguments.require_inputs(1, 1000, "results (.json) or tables (.csv)");
-  const std::string what =
-      arguments
-          .choice("--what", {"force-histogram", "angle", "NT", "coordination", "scattering", "correlation", "pores",
-                             "stressed", "loops", "two-contacts", "series", "law-fit", "bench", "study"})
-          .value_or("");
+  const std::string what = arguments
+                               .choice("--what", {"force-histogram", "angle", "NT", "coordination", "scattering",
+                                                  "correlation", "pores", "stressed", "loops", "two-contacts",
+                                                  "density-of-states", "series", "law-fit", "bench", "study"})
+                               .value_or("");
   FileRule rule;
   for (const std::string& input : arguments.inputs()) rule.reads("the input", input);
   rule.writes("-o", arguments.required("-o"));

@@ -8,5 +8,6 @@ namespace isostat {
 
 const std::vector<JsonPlot>& structure_plots();
 const std::vector<JsonPlot>& network_plots();
+const std::vector<JsonPlot>& modes_plots();
 
 }  // namespace isostat

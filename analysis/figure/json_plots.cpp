@@ -241,7 +241,8 @@ const std::vector<JsonPlot>& json_plots() {
                                  {"angle", angle_applies, angle_plot},
                                  {"NT", nt_applies, nt_plot},
                                  {"coordination", coordination_applies, coordination_plot}};
-    for (const auto* list : {&structure_plots(), &network_plots()}) all.insert(all.end(), list->begin(), list->end());
+    for (const auto* list : {&structure_plots(), &network_plots(), &modes_plots()})
+      all.insert(all.end(), list->begin(), list->end());
     all.push_back({"law-fit", law_fit_applies, law_fit_plot});
     return all;
   }();

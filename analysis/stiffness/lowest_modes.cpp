@@ -22,15 +22,6 @@ constexpr double kFirstMost = 0.1, kFirstColumns = 1e3;  // first lambda / |A|: 
 constexpr double kSmallestShift = 1e-13;                 // of |A|: A + sigma stays positive beyond rounding
 constexpr int kMostShifts = 3;
 
-// M^-1/2 A M^-1/2, whose null vectors are M^1/2 times those of A: the same columns depend on the same others.
-SymmetricMatrix mass_scaled(SymmetricMatrix a, const std::vector<double>& mass) {
-  if (mass.empty()) return a;
-  for (std::size_t c = 0; c < mass.size(); ++c)
-    for (auto e = static_cast<std::size_t>(a.start[c]); e < static_cast<std::size_t>(a.start[c + 1]); ++e)
-      a.value[e] /= std::sqrt(mass[c] * mass[static_cast<std::size_t>(a.row[e])]);
-  return a;
-}
-
 // T = B^-1 A B^-1 A B^-1 with B = A + sigma, operator type of Spectra. To an eigenvalue lambda of A belongs
 // lambda^2 / (lambda + sigma)^3: the null space of A goes to zero without being known, modes with lambda well above
 // sigma go to 1 / lambda, and softer ones stand before the k-th as long as lambda^2 > sigma^3 / lambda_k.

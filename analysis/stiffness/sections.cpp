@@ -7,6 +7,7 @@
 #include "analysis/rigidity/exact_rank.hpp"
 #include "analysis/rigidity/independent_columns.hpp"
 #include "analysis/rigidity/sections.hpp"
+#include "analysis/stiffness/density_of_states.hpp"
 #include "analysis/stiffness/moduli.hpp"
 #include "analysis/stiffness/prestressed_modes.hpp"
 #include "analysis/stiffness/pseudo_inverse.hpp"
@@ -231,13 +232,21 @@ Json moduli_section(const AnalysisInput& input, const AnalysisOptions& options) 
 Json modes_section(const AnalysisInput& input, const AnalysisOptions& options) {
   Json section{{"omega", nullptr}};
   try {
-    const VibrationModes modes = modes_of(input, options, mode_count(input, options), false);
-    section["omega"] = modes.omega;
-    section["participation"] = modes.participation;
-    section["zero_modes"] = modes.zero_modes;
-    section["converged"] = modes.converged;
+    if (!options.modes || *options.modes > 0) {
+      const VibrationModes modes = modes_of(input, options, mode_count(input, options), false);
+      section["omega"] = modes.omega;
+      section["participation"] = modes.participation;
+      section["zero_modes"] = modes.zero_modes;
+      section["converged"] = modes.converged;
+    }
   } catch (const FactorisationFailed& e) {
     section["reason"] = e.what();
+  }
+  section["degrees_of_freedom"] = dof_count(input, options);
+  if (options.density) {
+    const DensityOfStates density = density_of_states(input, options);
+    section["zero_modes"] = density.zero_modes;
+    section["density"] = described(density);
   }
   section["stiffness"] = stiffness_of(input, options);
   if (!options.prestress) return section;
@@ -258,7 +267,7 @@ Json modes_section(const AnalysisInput& input, const AnalysisOptions& options) {
 }
 
 std::vector<Table> modes_tables(const AnalysisInput& input, const AnalysisOptions& options) {
-  if (!options.modes) return {};  // the report has them all
+  if (!options.modes || *options.modes == 0) return {};  // the report has them all, or none are asked for
   const VibrationModes modes = modes_of(input, options, std::max(*options.modes, kTabulatedModes), false);
   Table density{"modes.density", {"omega", "modes_below", "participation"}, {}};
   for (std::size_t k = 0; k < modes.omega.size(); ++k)

@@ -31,6 +31,13 @@ double SymmetricMatrix::maximum_norm() const {
   return sum.empty() ? 0 : *std::max_element(sum.begin(), sum.end());
 }
 
+SymmetricMatrix mass_scaled(SymmetricMatrix a, const std::vector<double>& mass) {
+  for (std::size_t c = 0; c < mass.size(); ++c)
+    for (auto e = static_cast<std::size_t>(a.start[c]); e < static_cast<std::size_t>(a.start[c + 1]); ++e)
+      a.value[e] /= std::sqrt(mass[c] * mass[static_cast<std::size_t>(a.row[e])]);
+  return a;
+}
+
 SymmetricMatrix principal_submatrix(const SymmetricMatrix& a, const std::vector<char>& keep) {
   std::vector<std::int32_t> number(static_cast<std::size_t>(a.size), -1);
   SymmetricMatrix s;

@@ -21,6 +21,10 @@ struct SymmetricMatrix {
 // The rows and columns with keep[i] != 0.
 SymmetricMatrix principal_submatrix(const SymmetricMatrix& a, const std::vector<char>& keep);
 
+// M^-1/2 A M^-1/2 with the diagonal `mass` of M (empty: the identity). Its null vectors are M^1/2 times those of A: the
+// same columns depend on the same others.
+SymmetricMatrix mass_scaled(SymmetricMatrix a, const std::vector<double>& mass);
+
 class FactorisationFailed : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

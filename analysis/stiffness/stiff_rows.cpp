@@ -30,15 +30,19 @@ StiffRows stiff_rows(const AnalysisInput& input, const AnalysisOptions& options)
   return {std::move(g), std::move(k)};
 }
 
+std::int64_t dof_count(const AnalysisInput& input, const AnalysisOptions& options) {
+  const NetworkLaw law = input.network_law(options);
+  return input.packing_3d ? dof_layout(input.spheres(), law, false).size()
+                          : dof_layout(input.network(), law, false).size();
+}
+
 int mode_count(const AnalysisInput& input, const AnalysisOptions& options) {
   if (options.modes) return *options.modes;
-  const NetworkLaw law = input.network_law(options);
-  const std::int64_t dofs = input.packing_3d ? dof_layout(input.spheres(), law, false).size()
-                                             : dof_layout(input.network(), law, false).size();
+  const std::int64_t dofs = dof_count(input, options);
   if (dofs > kMostDenseDofs)
     throw InputError(input.path, 0, "--modes", "all",
                      "is for at most " + std::to_string(kMostDenseDofs) + " degrees of freedom, and here are " +
-                         std::to_string(dofs) + "; ask for a number of modes");
+                         std::to_string(dofs) + "; ask for a number of modes, or for --density-of-states");
   return kAllModes;
 }
 

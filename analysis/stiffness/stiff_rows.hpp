@@ -19,6 +19,8 @@ struct StiffRows {
 };
 StiffRows stiff_rows(const AnalysisInput& input, const AnalysisOptions& options);
 
+// Degrees of freedom of the bodies in a fixed cell: columns of K.
+std::int64_t dof_count(const AnalysisInput& input, const AnalysisOptions& options);
 // How many modes --modes asks for. Throws InputError for `all` of too many degrees of freedom.
 int mode_count(const AnalysisInput& input, const AnalysisOptions& options);
 VibrationModes modes_of(const AnalysisInput& input, const AnalysisOptions& options, int count, bool displacements);

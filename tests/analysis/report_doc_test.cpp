@@ -130,6 +130,7 @@ TEST(ReportDoc, EveryKeyOfEverySectionIsOnItsPage) {
   input.state.law.tangential_stiffness = 1e5;
   AnalysisOptions options;
   options.prestress = options.near_null = true;
+  options.density = DensityOptions{.bins = 10};
   std::vector<std::string> all;
   for (const Section& s : sections())
     if (!s.takes.beams && s.takes.plane) all.emplace_back(s.name);

@@ -53,6 +53,13 @@ TEST_F(Pictures, OfAPacking) {
   expect_approved("draw " ISOSTAT_DATA "/clusters/double_triangle.net --what clusters", "clusters.svg");
 }
 
+// What crosses the slanted edges of the cell is drawn at both of them.
+TEST_F(Pictures, OfATiltedCell) {
+  const std::string leaning = golden("leaning.csv");
+  expect_approved("draw " + leaning + " --what forces", "leaning-forces.svg");
+  expect_approved("draw " + leaning + " --what pores", "leaning-pores.svg");
+}
+
 TEST_F(Pictures, OfResults) {
   ASSERT_EQ(run("analyze " + packing() + " --only counts,forces --json " + in_folder("r.json")).code, 0);
   ASSERT_EQ(
@@ -69,6 +76,19 @@ TEST_F(Pictures, OfResults) {
     expect_approved("plot " + in_folder("r.json") + " --what " + what, "plot-" + what + ".svg");
   expect_approved("plot " + in_folder("s.json") + " --what scattering", "plot-scattering.svg");
   expect_approved("plot " + in_folder("p.json") + " --what pores", "plot-pores.svg");
+  ASSERT_EQ(
+      run("analyze " ISOSTAT_DATA "/clusters/dense_1400.net --law frictionless --only modes --density-of-states 40 "
+          "--random-vectors 4 --json " +
+          in_folder("d.json"))
+          .code,
+      0);
+  expect_approved("plot " + in_folder("d.json") + " --what density-of-states", "plot-density-of-states.svg");
+  ASSERT_EQ(run("analyze " ISOSTAT_DATA "/clusters/periodic_triangular4.net --only modes --modes all "
+                "--density-of-states 20 --json " +
+                in_folder("e.json"))
+                .code,
+            0);
+  expect_approved("plot " + in_folder("e.json"), "plot-all-modes.svg");
   expect_approved("plot " + golden("../soft-particle.json") + " --what law-fit", "plot-law-fit.svg");
   expect_approved("plot " + golden("series.csv") + " --what series", "plot-series.svg");
   expect_approved("plot " + golden("bench.csv") + " --what bench", "plot-bench.svg");
