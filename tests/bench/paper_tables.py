@@ -130,7 +130,7 @@ def main():
         old = kept.get((r["table"], r["case"], r["quantity"]))
         if not x and old and old["ours"]:  # not run again
             lines.append(list(old.values()))
-            gaps.append((r["table"], was, float(old["gap"] or "nan"), r["doubt"]))
+            gaps.append((r["table"], was, gap_of(float(old["ours"]), float(old["error"] or "nan"), r), r["doubt"]))
             continue
         if not x:
             if old := before.get(name_of(r)):
