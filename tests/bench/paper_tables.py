@@ -139,8 +139,8 @@ def main():
             continue
         mean, error = statistics(x)
         gap = gap_of(mean, error, r)
-        lines.append([r["table"], r["case"], r["quantity"], f"{mean:.4g}", f"{error:.2g}", str(len(x)), r["paper"],
-                      r["paper_error"], kind, f"{gap:.1f}" if gap == gap else "", was])
+        lines.append([r["table"], r["case"], r["quantity"], f"{mean:.4g}", f"{error:.2g}" if error == error else "", str(len(x)),
+                      r["paper"], r["paper_error"], kind, f"{gap:.1f}" if gap == gap else "", was])
         gaps.append((r["table"], was, gap, r["doubt"]))
     write(target / "gilabert2007.csv", lines)
     chi2 = chi_squares(gaps)
