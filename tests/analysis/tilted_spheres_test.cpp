@@ -14,6 +14,7 @@
 #include "dem/state/link_ends.hpp"
 #include "dem/state/touching.hpp"
 #include "tests/support/sphere_states.hpp"
+#include "tests/support/tilted_packings.hpp"
 
 namespace isostat {
 namespace {
@@ -45,59 +46,9 @@ AnalysisInput sheared_packing() {
   return input;
 }
 
-void lower(Packing<3>& p, int turns) {
-  p.cell->tilt -= turns * p.cell->length[0];
-  for (Link<3>& l : p.links) l.shift[0] += turns * l.shift[1];
-}
-
 AnalysisInput described_by(AnalysisInput input, int turns) {
-  lower(*input.packing_3d, -turns);
+  turn_description(*input.packing_3d, turns);
   return input;
-}
-
-// Tilt L1/2, no matter what the links become.
-Packing<3> half_tilted(Packing<3> p) {
-  p.cell->tilt = 0.5 * p.cell->length[0];
-  p.links = touching_links(p, 0.0);
-  std::erase_if(p.links, [](const Link<3>& l) { return l.i == l.j; });
-  return p;
-}
-
-// The upright cell of two copies: the second one is the image (0, 1, 0).
-Packing<3> two_copies(const Packing<3>& p) {
-  Packing<3> out;
-  const auto n = static_cast<std::int32_t>(p.bodies.size());
-  out.cell = PeriodicCell<3>{{{p.cell->length[0], 2 * p.cell->length[1], p.cell->length[2]}}};
-  out.bodies.resize(2 * p.bodies.size());
-  for (std::size_t k = 0; k < out.bodies.size(); ++k) {
-    const std::size_t of = k % p.bodies.size();
-    out.bodies.id[k] = static_cast<std::int64_t>(k);
-    out.bodies.position[k] = p.bodies.position[of] + p.cell->offset({0, k == of ? 0 : 1, 0});
-    out.bodies.radius[k] = p.bodies.radius[of], out.bodies.mass[k] = 1, out.bodies.inertia[k] = 1;
-  }
-  for (const Link<3>& l : p.links)
-    for (const int copy : {0, 1}) {
-      Link<3> twin = l;
-      const int row = copy + l.shift[1], up = row >= 0 ? row / 2 : -((1 - row) / 2);  // 2 (tilt, L2) = (L1, 2 L2)
-      twin.i = l.i + copy * n, twin.j = l.j + (row - 2 * up) * n;
-      twin.shift = {l.shift[0] + up, up, l.shift[2]};
-      out.links.push_back(twin);
-    }
-  return out;
-}
-
-// Numbers of two reports, in order; lists are compared as they stand.
-void expect_near(const Json& a, const Json& b, double tolerance, const std::string& where) {
-  if (a.is_structured()) {
-    ASSERT_EQ(a.size(), b.size()) << where;
-    for (auto at = a.items().begin(), other = b.items().begin(); at != a.items().end(); ++at, ++other)
-      expect_near(at.value(), other.value(), tolerance, where + "." + at.key());
-  } else if (a.is_number()) {
-    ASSERT_TRUE(b.is_number()) << where;
-    EXPECT_NEAR(a.get<double>(), b.get<double>(), tolerance * (1 + std::abs(a.get<double>()))) << where;
-  } else {
-    EXPECT_EQ(a, b) << where;
-  }
 }
 
 TEST(TiltedSpheres, EverySectionSaysTheSameOfEveryEquivalentTilt) {

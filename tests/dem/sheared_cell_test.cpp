@@ -23,6 +23,7 @@
 #include "dem/state/balance.hpp"
 #include "dem/state/link_ends.hpp"
 #include "tests/support/disk_states.hpp"
+#include "tests/support/shear_restart.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace isostat {
@@ -129,28 +130,8 @@ TEST(ShearStages, RampsOfShearAreFunctionsOfTime) {
 
 // Through a state file amid the shear, after the cell has turned back once.
 TEST(ShearStages, RestartAsIfTheyHadRunStraight) {
-  const std::string text = kScene +
-                           "[[stage]]\npressure = 0.5\nshear_rate = 0.1\nuntil = \"strain\"\nstrain = 1.5\n"
-                           "[[stage]]\npressure = 0.5\nstress_12 = 0.0\nuntil = \"time\"\ntime = 0.5\n";
-  const Scene scene = parse_scene(text, "scene.toml", {});
-  State<Disks> straight = initial_disks(scene, scene.seed);
-  std::vector<std::string> kept;
-  RunHooks<Disks> hooks;
-  hooks.checkpoint_seconds = 1e-9;
-  hooks.checkpoint = [&](const State<Disks>& s) {
-    if (kept.size() < 400) kept.push_back(encode_state(s));
-  };
-  ASSERT_TRUE(run_stages(straight, {}, hooks).all_met());
-  ASSERT_GT(kept.size(), 10u);
-  bool turned = false;
-  for (const std::size_t cut : {kept.size() / 3, kept.size() / 2, kept.size() - 1}) {
-    State<Disks> s = std::get<State<Disks>>(decode_state(kept[cut], "kept").state);
-    turned = turned || s.cell_motion.shear_strain * s.packing.cell->length[1] > s.packing.cell->tilt + 1;
-    run_stages(s, {}, {});
-    EXPECT_EQ(physical_hash(s), physical_hash(straight)) << "cut " << cut;
-    EXPECT_EQ(encode_state(s), encode_state(straight));
-  }
-  EXPECT_TRUE(turned);
+  const Scene scene = parse_scene(kScene + kShearedAndReleased, "scene.toml", {});
+  expect_restarts_as_straight(initial_disks(scene, scene.seed));
 }
 
 // The step in which the tilt is lowered is like any other: nothing jumps, springs included.

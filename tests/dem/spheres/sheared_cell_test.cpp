@@ -25,6 +25,7 @@
 #include "dem/spheres/vtp.hpp"
 #include "dem/state/link_ends.hpp"
 #include "tests/oracle/sphere_solver.hpp"
+#include "tests/support/shear_restart.hpp"
 #include "tests/support/sphere_states.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/vtk_array.hpp"
@@ -299,28 +300,8 @@ TEST(SphereShearStages, TheVelocityProfileIsAffine) {
 
 // Through a state file amid the shear, after the cell has turned back once.
 TEST(SphereShearStages, RestartAsIfTheyHadRunStraight) {
-  const std::string text = kScene +
-                           "[[stage]]\npressure = 0.5\nshear_rate = 0.1\nuntil = \"strain\"\nstrain = 1.5\n"
-                           "[[stage]]\npressure = 0.5\nstress_12 = 0.0\nuntil = \"time\"\ntime = 0.5\n";
-  const Scene scene = parse_scene(text, "scene.toml", {});
-  State<Spheres> straight = initial_spheres(scene, scene.seed);
-  std::vector<std::string> kept;
-  RunHooks<Spheres> hooks;
-  hooks.checkpoint_seconds = 1e-9;
-  hooks.checkpoint = [&](const State<Spheres>& s) {
-    if (kept.size() < 400) kept.push_back(encode_state(s));
-  };
-  ASSERT_TRUE(run_stages(straight, {}, hooks).all_met());
-  ASSERT_GT(kept.size(), 10u);
-  bool turned = false;
-  for (const std::size_t cut : {kept.size() / 3, kept.size() / 2, kept.size() - 1}) {
-    State<Spheres> s = std::get<State<Spheres>>(decode_state(kept[cut], "kept").state);
-    turned = turned || s.cell_motion.shear_strain * s.packing.cell->length[1] > s.packing.cell->tilt + 1;
-    run_stages(s, {}, {});
-    EXPECT_EQ(physical_hash(s), physical_hash(straight)) << "cut " << cut;
-    EXPECT_EQ(encode_state(s), encode_state(straight));
-  }
-  EXPECT_TRUE(turned);
+  const Scene scene = parse_scene(kScene + kShearedAndReleased, "scene.toml", {});
+  expect_restarts_as_straight(initial_spheres(scene, scene.seed));
 }
 
 std::string faults(const std::string& text) {
